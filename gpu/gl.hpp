@@ -133,15 +133,23 @@
     X(TexSubImage3D)                                                                                                   \
     X(TransformFeedbackVaryings)                                                                                       \
     X(Uniform1f)                                                                                                       \
+    X(Uniform1fv)                                                                                                      \
     X(Uniform1i)                                                                                                       \
+    X(Uniform1iv)                                                                                                      \
     X(Uniform1ui)                                                                                                      \
+    X(Uniform1uiv)                                                                                                     \
     X(Uniform2fv)                                                                                                      \
     X(Uniform2iv)                                                                                                      \
+    X(Uniform2uiv)                                                                                                     \
     X(Uniform3fv)                                                                                                      \
     X(Uniform3iv)                                                                                                      \
+    X(Uniform3uiv)                                                                                                     \
     X(Uniform4fv)                                                                                                      \
     X(Uniform4iv)                                                                                                      \
+    X(Uniform4uiv)                                                                                                     \
     X(UniformBlockBinding)                                                                                             \
+    X(UniformMatrix2fv)                                                                                                \
+    X(UniformMatrix3fv)                                                                                                \
     X(UniformMatrix4fv)                                                                                                \
     X(UnmapBuffer)                                                                                                     \
     X(UseProgram)                                                                                                      \

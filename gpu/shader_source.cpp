@@ -351,12 +351,22 @@ class Assembly {
         const std::size_t end = argument.find('"', 1);
         if (!argument.starts_with('"') || end == std::string_view::npos || end == 1)
             throw NotIncluded(where, "#include needs a file name in double quotes");
-        const auto [path, text] = find(folders_, texts_, std::string(argument.substr(1, end - 1)), where);
+        const auto [path, text] = found(std::string(argument.substr(1, end - 1)), where);
         if (std::find(open_.begin(), open_.end(), path) != open_.end())
             throw NotIncluded(where, fmt::format("{} includes itself", shown(path)));
         if (source_.bindings == nullptr) // a shipped stage with a file of the user's in it
             source_.bindings = bindings_beside(path);
         append(path, text);
+    }
+
+    /// In the folders; else beside the file that includes it, as libraries' files do each other.
+    File found(const std::string& name, const std::string& where) const try {
+        return find(folders_, texts_, name, where);
+    } catch (const NotIncluded&) {
+        const fs::path beside = (open_.back().parent_path() / name).lexically_normal();
+        if (const std::optional<std::string> text = open_.size() > 1 ? text_of(beside) : std::nullopt)
+            return {beside, *text};
+        throw;
     }
 
     const ShaderFolders& folders_;

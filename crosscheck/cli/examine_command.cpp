@@ -18,6 +18,7 @@
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/examine.hpp"
+#include "lockstep/lockstep.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -26,6 +27,7 @@ namespace {
 struct ExamineRequest {
     std::filesystem::path file, json;
     std::optional<std::string> groups;
+    std::string gl;
     std::optional<std::size_t> invocations;
     std::vector<std::string> uniforms, inputs, sizes, defines;
     std::size_t seed = 1, subgroup_size = text::lanes_at_once;
@@ -108,13 +110,23 @@ int run_examine(const ExamineRequest& options) {
     files.protect(options.file);
     if (!options.json.empty())
         files.expect(options.json);
-    const ExaminationResult result = examine(of);
+    std::optional<Gl> gl;
+    std::optional<MeasuredGl> measured;
+    if (!options.gl.empty()) {
+        if (stage_of(options.file) != Stage::compute)
+            throw Error("--gl is of compute stages");
+        gl.emplace(options.gl);
+        if (!*gl)
+            throw Error(gl->missing());
+        measured.emplace(MeasuredGl{gl->name(), gl->profile()});
+    }
+    const ExaminationResult result = examine(of, measured ? &*measured : nullptr);
     if (!options.json.empty())
         files.write(options.json, json_text(result.json(of)));
     files.commit();
     if (!options.quiet)
         fmt::print("{}", plain_text(result.text(of)));
-    return result.findings.empty() ? status_agree : status_differ;
+    return result.findings.empty() && (!result.gpu || result.gpu->is_right()) ? status_agree : status_differ;
 }
 
 } // namespace
@@ -145,6 +157,8 @@ Verb examine_command() {
     verb.add(otherwise(integer_option("--subgroup-size", "N", IntegerRange{1, text::lanes_at_once},
                                       options->subgroup_size, "invocations of a subgroup, a power of 2"),
                        std::to_string(text::lanes_at_once)));
+    verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options->gl,
+                         "run a compute stage on this GL, too, and compare every word with what its text allows"));
     verb.add(path_option("--json", "FILE", options->json, "write the findings as JSON"));
     verb.add(flag("--quiet", options->quiet, "print nothing"));
     verb.footer = "Exit status: 0 nothing was found, 1 something was, 2 could not run.\n"

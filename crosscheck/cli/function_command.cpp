@@ -130,12 +130,17 @@ GlslFunction function_of(const FunctionRequest& options, const std::filesystem::
     ShaderDefines defines;
     for (const std::string& define : options.defines)
         defines.push_back(macro_of("--define", define));
-    return {file.string(), name, {}, std::move(defines)};
+    GlslFunction made{file.string(), name, {}, std::move(defines), {}};
+    if (const std::size_t open = name.find('('); open != std::string::npos && name.ends_with(')')) {
+        made.name = name.substr(0, open);
+        made.parameters = name.substr(open + 1, name.size() - open - 2);
+    }
+    return made;
 }
 
 std::string command_of(const FunctionRequest& options) {
-    std::string line = fmt::format("lockstep function {} {} --table {}", shell_path(options.file), options.name,
-                                   shell_word(options.table.string()));
+    std::string line = fmt::format("lockstep function {} {} --table {}", shell_path(options.file),
+                                   shell_word(options.name), shell_word(options.table.string()));
     const auto add = [&](std::string_view option, const std::string& value) {
         if (!value.empty())
             line += fmt::format(" {} {}", option, shell_word(value));
@@ -257,7 +262,8 @@ Verb function_command() {
     auto options = std::make_shared<FunctionRequest>();
     Verb verb{"function", "run one GLSL function on a table of arguments, and hold what it returns against results"};
     verb.add(required(path_option("file", "FILE", options->file, "the shader that defines it")));
-    verb.add(required(text_option("name", "NAME", options->name, "the function")));
+    verb.add(required(text_option("name", "NAME", options->name,
+                                  "the function; of several of one name with its arguments: 'mix3(vec3, float)'")));
     verb.add(
         required(path_option("--table", "FILE", options->table,
                              "its arguments, and the results: CSV with a column a component (velocity.x), or JSON, "

@@ -154,7 +154,9 @@ std::vector<std::uint32_t> FunctionText::values(const FunctionRows& rows) const 
 std::vector<ItemOutcome> FunctionText::results(const FunctionRows& rows, std::size_t row,
                                                const TextTaken& taken) const {
     KnownOperations known = known_;
-    known.sums = known.sums && !taken.in_any_order;
+    if (taken.as_written) // what a port may have: of the driver nothing is known
+        known = {};
+    known.sums = known_.sums && !taken.in_any_order;
     const text::Constants constants = taken.as_written ? text::Constants::as_written : text::Constants::rounded;
     std::vector<std::uint32_t> arguments = arguments_of(rows, row), result(4);
     std::vector<ItemOutcome> all;

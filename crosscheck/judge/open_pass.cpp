@@ -58,6 +58,17 @@ KnownOperations in_any_order(KnownOperations known) {
     return known;
 }
 
+/// Where some components of the reference have no legal way to them, the others keep theirs: what differs there is not
+/// what is wrong.
+void open_what_meets(const std::vector<ItemOutcome>& own, std::vector<ItemOutcome>& all) {
+    for (ItemOutcome& one : all)
+        for (std::size_t c = 0; c < one.values.size(); ++c)
+            for (const ItemOutcome& a : own)
+                if (a.undefined == Undefined::none && !a.values[c].any && !one.values[c].any &&
+                    meet(a.values[c], one.values[c]) && !std::isnan(one.values[c].low))
+                    one.values[c] = interval::hull(one.values[c], a.values[c]);
+}
+
 class OpenPass final : public PassByProfile {
   public:
     OpenPass(std::shared_ptr<const ItemPass> one, std::shared_ptr<const OwnText> own)
@@ -87,6 +98,8 @@ class OpenPass final : public PassByProfile {
         };
         if (meet(own, all) || is_near())
             all.insert(all.end(), own.begin(), own.end());
+        else
+            open_what_meets(own, all);
         return all;
     }
 

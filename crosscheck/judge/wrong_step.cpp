@@ -22,6 +22,8 @@ namespace {
 using Kind = RecordedRow::Kind;
 
 std::string line_of(const std::source_location& where) {
+    if (where.line() == 0)
+        return "";
     return fmt::format("{}:{}", std::filesystem::path(where.file_name()).filename().string(), where.line());
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -70,6 +72,27 @@ std::vector<std::pair<std::string, Signature>> definitions_in(const std::string&
     return found;
 }
 
+/// "vec3,float"
+std::string types_of(const Signature& signature) {
+    std::vector<std::string> types;
+    for (const Parameter& parameter : signature.parameters)
+        types.push_back(parameter.type);
+    return fmt::format("{}", fmt::join(types, ","));
+}
+
+std::string without_spaces(std::string text) {
+    std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
+    return text;
+}
+
+/// "'mix3(vec3)', 'mix3(vec3,float)'"
+std::string all_shown(const std::string& name, const std::vector<Signature>& all) {
+    std::vector<std::string> shown;
+    for (const Signature& one : all)
+        shown.push_back(fmt::format("'{}({})'", name, types_of(one)));
+    return fmt::format("{}", fmt::join(shown, ", "));
+}
+
 } // namespace
 
 std::string type_of(const Column& column) {
@@ -104,9 +127,20 @@ Signature signature_of(const GlslFunction& function, const std::string& text) {
                                 plain_line(function.name),
                                 names.empty() ? "" : fmt::format("; it has {}", fmt::join(names, ", ")),
                                 did_you_mean(function.name, names)));
+    if (!function.parameters.empty()) {
+        const auto is_other = [&](const Signature& one) {
+            return types_of(one) != without_spaces(function.parameters);
+        };
+        const std::vector<Signature> all = std::exchange(found, {});
+        std::ranges::remove_copy_if(all, std::back_inserter(found), is_other);
+        if (found.empty())
+            throw Error(fmt::format("shader {}: defines no {}({}); it has {}", plain_line(function.file), function.name,
+                                    plain_line(function.parameters), all_shown(function.name, all)));
+    }
     if (found.size() > 1)
-        throw Error(fmt::format("shader {}:{}: {} is defined more than once; right is one of the name",
-                                plain_line(function.file), found[1].line, function.name));
+        throw Error(fmt::format("shader {}:{}: {} is defined more than once; expected one of {}",
+                                plain_line(function.file), found[1].line, function.name,
+                                all_shown(function.name, found)));
     return found.front();
 }
 

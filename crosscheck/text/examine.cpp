@@ -16,6 +16,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/glsl_module.hpp"
 #include "gpu/any_dialect.hpp"
+#include "reference/half.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 #include "reference/model/profile.hpp"
@@ -116,6 +117,14 @@ std::vector<std::uint32_t> block_words(const Examination& of, const text::Block&
     return words;
 }
 
+/// A float from 0 to 1 as a texel's word has it.
+std::uint32_t code_of(std::uint32_t word, text::TexelMemory::Code code) {
+    const auto x = std::bit_cast<float>(word);
+    return code == text::TexelMemory::Code::unorm8 ? static_cast<std::uint32_t>(x * 255.0F)
+           : code == text::TexelMemory::Code::half ? std::bit_cast<std::uint32_t>(half_nearest(x))
+                                                   : word;
+}
+
 /// Of a stage other than compute; fragments come in whole quads.
 std::uint32_t invocations_of(const Examination& of, const text::Program& program) {
     return program.stage == spv::ExecutionModelFragment ? (of.invocations + 3) / 4 * 4 : of.invocations;
@@ -150,12 +159,6 @@ void share_buffers(const std::vector<text::Block>& blocks, std::vector<std::span
 
 /// Some 20 s of a watched run.
 constexpr std::uint32_t most_branches = 10'000'000;
-
-/// What a program's names are bound to.
-struct MadeUpWorld {
-    std::vector<std::vector<std::uint32_t>> words;
-    text::Bindings bindings;
-};
 
 std::uint32_t made_up_size(const text::ImageShape& shape, std::uint32_t axis,
                            const std::array<std::uint32_t, 3>& invocations) {
@@ -220,7 +223,8 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
     }
     share_buffers(program.blocks, world.bindings.blocks);
     for (const text::ImageUniform& image : program.images) {
-        text::TexelMemory texels{.name = image.name};
+        const TexelFormat format = format_of(image);
+        text::TexelMemory texels{.name = image.name, .components = format.components, .code = format.code};
         const std::uint32_t axes = image.shape.axes();
         const std::vector<std::uint32_t> size = size_of(image.name);
         if (!size.empty() && size.size() != axes)
@@ -233,7 +237,7 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
         std::vector<std::uint32_t>& all = world.words.emplace_back(
             take(image.name, {texels.size[0], texels.size[1], texels.size[2], texels.components}));
         for (std::uint32_t& word : all)
-            word = image.is_real ? made_up.word() : 0U;
+            word = image.is_real ? code_of(made_up.word(), format.code) : 0U;
         texels.words = all;
         world.bindings.images.push_back(texels);
     }
@@ -339,7 +343,7 @@ std::optional<Stage> stage_of(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
-ExaminationResult examine(const Examination& of) {
+ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
     const std::shared_ptr<const ShaderSource> source = source_of(of);
     const text::Program program = text::decoded(
         text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); }));
@@ -350,7 +354,8 @@ ExaminationResult examine(const Examination& of) {
         sized.push_back(name);
     check_names("--size", of.sizes, sized);
     check_invocations(of, program);
-    MadeUpWorld world = world_of(of, program);
+    const MadeUpWorld world = world_of(of, program);
+    const MadeUpWorld watched = world.copy();
     text::Findings findings;
     const Profile profile = named_profile("strict");
     if (program.stage == spv::ExecutionModelGLCompute)
@@ -359,10 +364,12 @@ ExaminationResult examine(const Examination& of) {
                             .is_watched = true,
                             .most_branches = most_branches,
                             .subgroup_size = of.subgroup_size},
-                           world.bindings, profile, findings);
+                           watched.bindings, profile, findings);
     else
-        text::run_stage(program, stage_run_of(of, program), world.bindings, profile, findings);
+        text::run_stage(program, stage_run_of(of, program), watched.bindings, profile, findings);
     ExaminationResult result;
+    if (gl != nullptr)
+        result.gpu = compare_with_gpu(*gl, *source, program, of.groups, world, findings);
     result.ran = what_ran(of, program);
     if (program.stage == spv::ExecutionModelGLCompute)
         result.group_size = program.invocations();
@@ -387,6 +394,8 @@ std::string ExaminationResult::text(const Examination& of) const {
     }
     if (!not_given.empty())
         all += fmt::format("0 for want of --uniform: {}\n", fmt::join(not_given, ", "));
+    if (gpu)
+        all += gpu->text();
     return all;
 }
 
@@ -409,6 +418,8 @@ nlohmann::json ExaminationResult::json(const Examination& of) const {
             row["other"] = {{"where", one.other}, {"invocation", one.found.other->invocation}};
         all["findings"].push_back(std::move(row));
     }
+    if (gpu)
+        all["gl"] = gpu->json();
     return all;
 }
 

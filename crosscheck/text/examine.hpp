@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/text/gpu_comparison.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/text/findings.hpp"
 #include "reference/text/invocation.hpp"
@@ -42,6 +43,7 @@ struct ExaminationResult {
     std::uint32_t group_size = 0;       ///< of a compute stage
     std::vector<std::string> not_given; ///< uniforms, which are 0
     std::vector<NamedFinding> findings;
+    std::optional<GpuComparison> gpu;
 
     [[nodiscard]] std::string text(const Examination& of) const;
     [[nodiscard]] nlohmann::json json(const Examination& of) const;
@@ -50,7 +52,8 @@ struct ExaminationResult {
 /// By the extension of its name, in GLSL or SPIR-V; null: it is no stage's.
 std::optional<Stage> stage_of(const std::filesystem::path& file);
 
-/// Throws Error naming what is not interpreted, or a name that the shader does not have.
-ExaminationResult examine(const Examination& of);
+/// `gl`: has a compute stage run there, too; null: no GL is needed. Throws Error naming what is not interpreted, or a
+/// name that the shader does not have.
+ExaminationResult examine(const Examination& of, const MeasuredGl* gl = nullptr);
 
 } // namespace lockstep

@@ -3,7 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <vector>
 
+#include "reference/interval.hpp"
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/values.hpp"
 #include "reference/text/invocation.hpp"
@@ -66,14 +69,22 @@ template <class R> struct Cell {
 template <class R>
 requires has_sets<R>
 struct Cell<R> {
+    using Terms = std::vector<Interval>;
     typename R::Real x{};
     std::uint32_t w = 0;
-    bool is_real = false; ///< of what was written: which of the two it is
+    bool is_real = false;               ///< of what was written: which of the two it is
+    std::shared_ptr<const Terms> terms; ///< of a sum without `precise`, whose order is open; null: it is none
 
     [[nodiscard]] const typename R::Real& real() const { return x; }
     [[nodiscard]] std::uint32_t word() const { return w; }
-    void set(const typename R::Real& number) { x = number; }
-    void set(std::uint32_t word) { w = word; }
+    void set(const typename R::Real& number) {
+        x = number;
+        terms.reset();
+    }
+    void set(std::uint32_t word) {
+        w = word;
+        terms.reset();
+    }
 };
 
 template <class R> using WrittenWords = std::map<WrittenPlace, Cell<R>>;

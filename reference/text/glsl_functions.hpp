@@ -353,7 +353,13 @@ template <class R, int W> void Machine<R, W>::extended(const Step& s) {
     case GLSLstd450Ceil:
         return real1(s, [&](const Real& v) { return rounded(v, Rounds::up); });
     case GLSLstd450Fract:
-        return real1(s, [&](const Real& v) { return v - r.floor(v); });
+        return real1(s, [&](const Real& v) {
+            const Real rest = v - r.floor(v);
+            if constexpr (has_sets<R>)
+                return r.rest_of(rest, v, Real(1.0F));
+            else
+                return rest;
+        });
     case GLSLstd450Radians:
         return real1(s, [&](const Real& v) { return v * Real(std::numbers::pi_v<float> / 180.0F); });
     case GLSLstd450Degrees:

@@ -188,6 +188,8 @@ template <class R, int W> class Machine {
     /// out = f(operands), component by component.
     template <class F> void real1(const Step& s, const F& f);
     template <class F> void real2(const Step& s, const F& f);
+    void sum(const Step& s, bool subtracts);
+    void negate(const Step& s);
     template <class F> void real3(const Step& s, const F& f);
     template <class F> void word1(const Step& s, const F& f);
     template <class F> void word2(const Step& s, const F& f);

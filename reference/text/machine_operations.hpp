@@ -299,20 +299,74 @@ template <class R, int W> void Machine<R, W>::integer_operation(const Step& s) {
     }
 }
 
+/// Of sets, a sum of three terms and more remembers them: without `precise` it may take another order.
+template <class R, int W> void Machine<R, W>::sum(const Step& s, bool subtracts) {
+    if constexpr (has_sets<R>) {
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const C a = *cell(s.a + c), b = *cell(s.b + c);
+            C& out = *cell(s.out + c);
+            const Real made = subtracts ? a.real() - b.real() : a.real() + b.real();
+            if (r.is_precise()) {
+                out.set(made);
+                continue;
+            }
+            auto terms = std::make_shared<typename C::Terms>(a.terms ? *a.terms : typename C::Terms{a.real().set()});
+            for (const Interval& term : b.terms ? *b.terms : typename C::Terms{b.real().set()})
+                terms->push_back(subtracts ? interval::negate(term) : term);
+            out.set(terms->size() > 2 ? r.in_any_order(made, *terms) : made);
+            constexpr std::size_t most_terms = 64;
+            if (terms->size() > most_terms)
+                *terms = {out.real().set()};
+            out.terms = std::move(terms);
+        }
+    } else if (subtracts) {
+        real2(s, [](const Real& a, const Real& b) { return a - b; });
+    } else {
+        real2(s, [](const Real& a, const Real& b) { return a + b; });
+    }
+}
+
+template <class R, int W> void Machine<R, W>::negate(const Step& s) {
+    for (std::uint32_t c = 0; c < s.n; ++c) {
+        C* const out = cell(s.out + c);
+        const C* const a = cell(s.a + c);
+        each([&](Lane l) {
+            if constexpr (has_sets<R>) {
+                const C of = a[l];
+                out[l].set(-of.real());
+                if (of.terms && !r.is_precise()) {
+                    auto terms = std::make_shared<typename C::Terms>(*of.terms);
+                    for (Interval& term : *terms)
+                        term = interval::negate(term);
+                    out[l].terms = std::move(terms);
+                }
+            } else {
+                out[l].set(-a[l].real());
+            }
+        });
+    }
+}
+
 template <class R, int W> void Machine<R, W>::operation(const Step& s) {
     switch (s.op) {
     case spv::OpFAdd:
-        return real2(s, [](const Real& a, const Real& b) { return a + b; });
+        return sum(s, false);
     case spv::OpFSub:
-        return real2(s, [](const Real& a, const Real& b) { return a - b; });
+        return sum(s, true);
     case spv::OpFMul:
         return real2(s, [](const Real& a, const Real& b) { return a * b; });
     case spv::OpFDiv:
         return real2(s, [&](const Real& a, const Real& b) { return r.divide(in_text, a, b); });
     case spv::OpFMod: // x - y floor(x / y) (GLSL 4.60, 8.3)
-        return real2(s, [&](const Real& a, const Real& b) { return a - b * r.floor(r.divide(in_text, a, b)); });
+        return real2(s, [&](const Real& a, const Real& b) {
+            const Real rest = a - b * r.floor(r.divide(in_text, a, b));
+            if constexpr (has_sets<R>)
+                return r.rest_of(rest, a, b);
+            else
+                return rest;
+        });
     case spv::OpFNegate:
-        return real1(s, [](const Real& a) { return -a; });
+        return negate(s);
     case spv::OpFOrdEqual:
         return compare(s, [](const Real& a, const Real& b) { return a == b; });
     case spv::OpFOrdNotEqual:

@@ -238,7 +238,7 @@ class ModuleReader {
         }
         case spv::OpTypeImage: {
             Type& type = make(w, image, w[1]);
-            type.shape = {static_cast<spv::Dim>(w[2]), w[4] != 0, w[5] != 0};
+            type.shape = {static_cast<spv::Dim>(w[2]), w[4] != 0, w[5] != 0, static_cast<spv::ImageFormat>(w[7])};
             type.is_storage = w[6] == 2;
             type.cells = 1;
             break;

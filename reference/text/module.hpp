@@ -21,6 +21,7 @@ using LineName = std::function<std::string(std::uint32_t line)>;
 struct ImageShape {
     spv::Dim dimensions = spv::Dim2D;
     bool is_arrayed = false, has_samples = false;
+    spv::ImageFormat format = spv::ImageFormatUnknown; ///< of an image that is stored to, as its layout says
 
     /// Numbers of a texel's place: along its dimensions, a cube's face, a layer, a sample.
     [[nodiscard]] std::uint32_t axes() const {

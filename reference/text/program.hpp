@@ -108,6 +108,7 @@ struct ImageUniform {
     bool is_storage = false;
     ImageShape shape;
     bool is_real = true; ///< components are floats
+    bool is_signed = false;
 };
 
 /// An input or output of a vertex, geometry or fragment stage: a variable, or a member of a block or structure.

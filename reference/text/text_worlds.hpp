@@ -3,8 +3,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <span>
 
 #include "reference/plain_arithmetic.hpp"
+#include "reference/readings/any_order.hpp"
 #include "reference/readings/worlds.hpp"
 #include "reference/text/cell.hpp"
 #include "reference/text/function_precision.hpp"
@@ -16,12 +19,37 @@ namespace lockstep::text {
 class TextWorlds : public Worlds<PlainArithmetic> {
   public:
     TextWorlds(const Profile& profile, const KnownOperations& known)
-        : Worlds<PlainArithmetic>(PlainArithmetic(profile), known, profile.other_orders) {}
+        : Worlds<PlainArithmetic>(PlainArithmetic(profile), known, profile.other_orders),
+          of_orders_(PlainArithmetic(profile), {.sums = false, .subnormals = known.subnormals}) {}
 
     /// The operations from here on are those of a line of the text.
     void set_place(const Site& line, bool is_precise) {
         place_ = &line;
+        is_precise_ = is_precise;
         set_free(!is_precise);
+    }
+    [[nodiscard]] bool is_precise() const { return is_precise_; }
+    /// What a sum may be besides, whose terms may be taken in another order; a port of more digits may have the sum
+    /// itself.
+    Real in_any_order(Real sum, std::span<const Interval> terms) {
+        Interval all = lockstep::any_order_sum(of_orders_, terms);
+        if (constants_are_wide_ && !all.any)
+            all = interval::hull(
+                all, interval::to_floats(std::accumulate(terms.begin(), terms.end(), Interval(0.0F), interval::add)));
+        return make({sum}, [&](const auto&) { return interval::hull(sum.set(), all); });
+    }
+    /// What is left of `a` by `divisor`, which lies between 0 and that, but for what the division rounds.
+    Real rest_of(Real rest, Real a, Real divisor) {
+        const Interval left = rest.set(), x = a.set(), y = divisor.set();
+        if (left.any || x.any || y.any || !std::isfinite(x.low) || !std::isfinite(x.high) || y.contains_zero())
+            return rest;
+        const double margin =
+            y.is_point() && y.low == 1.0 ? 0.0 : 2.0 * interval::ulp(std::max(std::abs(x.low), std::abs(x.high)));
+        const double low = std::max(left.low, std::min(y.low, 0.0) - margin),
+                     high = std::min(left.high, std::max(y.high, 0.0) + margin);
+        if (low > high || (low == left.low && high == left.high))
+            return rest;
+        return make({rest}, [&](const auto&) { return Interval(low, high); });
     }
     using Worlds<PlainArithmetic>::set_free;
     /// Constants stand for the real numbers that they were rounded from.
@@ -150,6 +178,8 @@ class TextWorlds : public Worlds<PlainArithmetic> {
 
     static constexpr Site nowhere{"text"};
     const Site* place_ = &nowhere;
+    bool is_precise_ = false;
+    LegalArithmetic<PlainArithmetic> of_orders_;
     bool constant_divisors_open_ = false, constants_are_wide_ = false;
 };
 

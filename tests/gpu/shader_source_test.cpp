@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -52,6 +53,19 @@ TEST_CASE("shader source: an include is replaced by its file") {
     CHECK(origins(source) == std::vector<std::string>{"0:1", "1:1", "2:1", "1:3", "0:3"});
     REQUIRE(source.files.size() == 3);
     CHECK(source.files[2] == (folder.path() / "inner.glsl").string());
+}
+
+TEST_CASE("shader source: a file beside the one that includes it is found, after those of the folders") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "colour" / "space");
+    folder.write("colour/space/hsv.glsl", "#include \"../clamped.glsl\"\nfloat hsv;\n");
+    folder.write("colour/clamped.glsl", "float clamped;\n");
+    folder.write("a.frag", "#version 330\n#include \"colour/space/hsv.glsl\"\nvoid main() {}");
+    const ShaderSource source = load_stage({folder.path()}, "a", Stage::fragment);
+    CHECK(source.text.find("float clamped;") < source.text.find("float hsv;"));
+    folder.write("colour/space/hsv.glsl", "#include \"../absent.glsl\"\n");
+    CHECK_THROWS_WITH(load_stage({folder.path()}, "a", Stage::fragment),
+                      Catch::Contains("hsv.glsl:1: no shader file ../absent.glsl"));
 }
 
 TEST_CASE("shader source: a user's file comes before the built-in one, included files too") {

@@ -210,7 +210,8 @@ TEST_CASE("function: what cannot be run says where and what would be right") {
         return skip(gl().missing());
     CHECK_THAT(error_of(bounce_text, "bounse"),
                Contains("wall.glsl: defines no function bounse; it has bounce; did you mean bounce?"));
-    CHECK_THAT(error_of(bounce_text + bounce_text), Contains("wall.glsl:10: bounce is defined more than once"));
+    CHECK_THAT(error_of(bounce_text + bounce_text),
+               Contains("wall.glsl:10: bounce is defined more than once; expected one of 'bounce("));
     CHECK_THAT(error_of(replaced(bounce_text, "vec3 velocity", "vec4 velocity")),
                Contains("wall.glsl:3: vec3 bounce(vec4, vec3): column 1 of the table is vec3, argument 1 is vec4"));
     CHECK_THAT(error_of(replaced(bounce_text, "const in vec3 n", "const in vec3 n, float t")),

@@ -52,7 +52,8 @@ void bind_blocks(GLuint program, const LoneDispatch& dispatch, const std::vector
         const GLenum interface = block.is_storage ? GL_SHADER_STORAGE_BLOCK : GL_UNIFORM_BLOCK;
         const GLuint index = gl::GetProgramResourceIndex(program, interface, block.name.c_str());
         if (index == GL_INVALID_INDEX) {
-            if (gl::GetProgramResourceIndex(program, GL_UNIFORM, block.name.c_str()) != GL_INVALID_INDEX)
+            if (block.name.starts_with("gl_") || // that of glslang's reading as GLSL for Vulkan
+                gl::GetProgramResourceIndex(program, GL_UNIFORM, block.name.c_str()) != GL_INVALID_INDEX)
                 throw Error(fmt::format("{}: an atomic counter is not given to GL", block.name));
             continue;
         }

@@ -220,7 +220,8 @@ GpuComparison compare_with_gpu(const MeasuredGl& gl, const ShaderSource& source,
             }
         } catch (const Error& error) {
             made.unjudged += words.size();
-            made.unjudged_for = error.what();
+            if (made.unjudged_for.empty())
+                made.unjudged_for = error.what();
             judged = most_judged; // the rest is likely the same
             continue;
         }

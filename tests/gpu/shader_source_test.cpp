@@ -288,7 +288,7 @@ TEST_CASE("shader log: the first error is found in every compiler's form") {
     CHECK(first_compile_error("ERROR: 0:3: 'x' : undeclared identifier\n", source) ==
           "lib.glsl:1: 'x' : undeclared identifier");
     CHECK(first_compile_error("\nout of registers\n", source) == "a.vert: out of registers");
-    CHECK(first_compile_error("0:6(1): error: odd\n", source) == "a.vert: 0:6(1): error: odd");
+    CHECK(first_compile_error("0:7(1): error: odd\n", source) == "a.vert: 0:7(1): error: odd");
     CHECK(first_compile_error("0:0(1): error: odd\n", source) == "a.vert: 0:0(1): error: odd");
     CHECK(first_compile_error("", source) == "a.vert: the driver gives no reason");
     CHECK(first_compile_error("0:99999999999999999999(1): error: odd\n", source) ==

@@ -90,7 +90,8 @@ TEST_CASE("GPU comparison: what the text does not allow is the driver's, with li
     REQUIRE(made.wrong.size() == 1);
     CHECK_THAT(made.wrong.front(), Contains("kernel.comp:8, invocation 5: Numbers word 5: expected 3.9") &&
                                        Contains("the driver made 5.8"));
-    CHECK_THAT(made.text(), Contains("on this GL: 1 of 64 words differ: 0 as GL allows, 1 as it does not, 0 not judged"));
+    CHECK_THAT(made.text(),
+               Contains("on this GL: 1 of 64 words differ: 0 as GL allows, 1 as it does not, 0 not judged"));
     // Where a text writes nothing there is no line.
     const GpuComparison more = compared(kernel("    if (i < 8u) x[i] = 1.0;"), kernel("    if (i < 9u) x[i] = 1.0;"));
     CHECK(more.wrong_words == 1);

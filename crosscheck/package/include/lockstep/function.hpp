@@ -30,7 +30,8 @@ struct GlslFunction {
     std::string name;
     Uniforms uniforms = {};     ///< that its file declares, or a file that it includes
     ShaderDefines defines = {}; ///< what its file is compiled with
-    /// "vec3, float": the types of its arguments, where its file defines several of the name. Empty: it is the only one.
+    /// "vec3, float": the types of its arguments, where its file defines several of the name. Empty: it is the only
+    /// one.
     std::string parameters = {};
 };
 

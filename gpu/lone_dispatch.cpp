@@ -23,7 +23,7 @@ class LinkedStage {
         try {
             const ShaderObject shader(stage);
             gl::AttachShader(id_, shader.id());
-            if (!link(id_, {}))
+            if (!lockstep::link(id_, {}))
                 throw Error(fmt::format("shader {}", link_failure(id_, std::span(&stage, 1), {})));
         } catch (...) {
             gl::DeleteProgram(id_);

@@ -90,7 +90,7 @@ struct Differing {
     std::uint32_t expected = 0, got = 0;
 };
 
-std::string value_text(std::uint32_t bits, bool is_real) {
+std::string word_text(std::uint32_t bits, bool is_real) {
     return is_real ? fmt::format("{:.9g} ({:#010x})", std::bit_cast<float>(bits), bits)
                    : fmt::format("{} ({:#010x})", static_cast<std::int32_t>(bits), bits);
 }
@@ -138,7 +138,7 @@ class Judge {
         const std::string& name = one.place.space == Space::block ? program_.blocks[one.place.number].name
                                                                   : program_.images[one.place.number].name;
         return fmt::format("{}{} word {}: expected {}, the driver made {}{}", where, name, one.place.word,
-                           value_text(one.expected, is_real), value_text(one.got, is_real),
+                           word_text(one.expected, is_real), word_text(one.got, is_real),
                            invocation ? "" : "; the text writes nothing there");
     }
 

@@ -241,9 +241,6 @@ int run_function(const FunctionRequest& options) {
     const bool agrees = !result || result->passed();
     const std::string open =
         undefined.empty() ? std::string() : undefined_text(rows, undefined, agrees ? judged.count() : 0);
-    if (!options.quiet)
-        fmt::print("{}{}", agrees && !undefined.empty() ? std::string() : colored(plain_text(result->text())),
-                   colored(plain_text(open)));
     if (!options.json.empty()) {
         nlohmann::json document =
             result ? report_json(result->report(), result->run()) : nlohmann::json{{"verdict", "UNDEFINED"}};
@@ -253,6 +250,9 @@ int run_function(const FunctionRequest& options) {
         files.write(options.json, json_text(document));
     }
     files.commit();
+    if (!options.quiet)
+        fmt::print("{}{}", agrees && !undefined.empty() ? std::string() : colored(plain_text(result->text())),
+                   colored(plain_text(open)));
     return agrees && undefined.empty() ? status_agree : status_differ;
 }
 

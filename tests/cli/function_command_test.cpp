@@ -337,6 +337,10 @@ TEST_CASE("function: uniforms of included files and of the other shader count") 
     setting.folder.write("kept.glsl", "uniform float u_Share;\n");
     const std::string shader = setting.file("with.glsl", "#include \"kept.glsl\"\n"
                                                          "float scaled(float x) { return x * u_Share; }\n");
+    CHECK_THAT(refusal(run_lockstep({"function", shader, "scaled", "--table",
+                                     setting.file("x.csv", "x, result\n1, 2\n"), "--uniform", "u_Share=2", "--gl",
+                                     software_gl(), "--json", setting.folder.path() / "kept.glsl"})),
+               Contains("kept.glsl: cannot be written: the run reads it"));
     const std::string other = setting.file("other.glsl", "uniform float u_Part;\n"
                                                          "float scaled(float x) { return x * u_Part; }\n");
     const std::string table = setting.file("rows.csv", "x\n4\n");

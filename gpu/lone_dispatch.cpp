@@ -12,6 +12,7 @@
 #include "gpu/program_linking.hpp"
 #include "gpu/shader_object.hpp"
 #include "gpu/state_image.hpp"
+#include "gpu/uniform_words.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -80,48 +81,8 @@ void set_uniform(GLuint program, const LoneDispatch::Uniform& uniform) {
     const GLenum asked = GL_TYPE;
     GLint type = 0;
     gl::GetProgramResourceiv(program, GL_UNIFORM, index, 1, &asked, 1, nullptr, &type);
-    const auto* const floats = reinterpret_cast<const GLfloat*>(uniform.words.data());
-    const auto* const integers = reinterpret_cast<const GLint*>(uniform.words.data());
-    const GLuint* const words = uniform.words.data();
-    const auto count = [&](std::size_t components) { return static_cast<GLsizei>(uniform.words.size() / components); };
-    switch (type) {
-    case GL_FLOAT:
-        return gl::Uniform1fv(location, count(1), floats);
-    case GL_FLOAT_VEC2:
-        return gl::Uniform2fv(location, count(2), floats);
-    case GL_FLOAT_VEC3:
-        return gl::Uniform3fv(location, count(3), floats);
-    case GL_FLOAT_VEC4:
-        return gl::Uniform4fv(location, count(4), floats);
-    case GL_INT:
-    case GL_BOOL:
-        return gl::Uniform1iv(location, count(1), integers);
-    case GL_INT_VEC2:
-    case GL_BOOL_VEC2:
-        return gl::Uniform2iv(location, count(2), integers);
-    case GL_INT_VEC3:
-    case GL_BOOL_VEC3:
-        return gl::Uniform3iv(location, count(3), integers);
-    case GL_INT_VEC4:
-    case GL_BOOL_VEC4:
-        return gl::Uniform4iv(location, count(4), integers);
-    case GL_UNSIGNED_INT:
-        return gl::Uniform1uiv(location, count(1), words);
-    case GL_UNSIGNED_INT_VEC2:
-        return gl::Uniform2uiv(location, count(2), words);
-    case GL_UNSIGNED_INT_VEC3:
-        return gl::Uniform3uiv(location, count(3), words);
-    case GL_UNSIGNED_INT_VEC4:
-        return gl::Uniform4uiv(location, count(4), words);
-    case GL_FLOAT_MAT2:
-        return gl::UniformMatrix2fv(location, count(4), GL_FALSE, floats);
-    case GL_FLOAT_MAT3:
-        return gl::UniformMatrix3fv(location, count(9), GL_FALSE, floats);
-    case GL_FLOAT_MAT4:
-        return gl::UniformMatrix4fv(location, count(16), GL_FALSE, floats);
-    default:
+    if (!set_uniform_words(location, static_cast<GLenum>(type), uniform.words))
         throw Error(fmt::format("uniform {}: values of its type are not given to GL", uniform.name));
-    }
 }
 
 } // namespace

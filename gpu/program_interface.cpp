@@ -11,6 +11,7 @@
 #include "gpu/glsl_type.hpp"
 #include "gpu/shader_words.hpp"
 #include "gpu/spirv_module.hpp"
+#include "gpu/uniform_words.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 
@@ -370,31 +371,8 @@ void UniformValues::write(std::size_t variable, std::span<const std::uint32_t> w
         }
         return;
     }
-    const auto* const floats = reinterpret_cast<const GLfloat*>(words.data());
-    const auto* const integers = reinterpret_cast<const GLint*>(words.data());
-    // glUniform ignores location -1, an unused uniform's.
-    switch (to.type) {
-    case GL_FLOAT:
-        return gl::Uniform1f(to.location, *floats);
-    case GL_FLOAT_VEC2:
-        return gl::Uniform2fv(to.location, 1, floats);
-    case GL_FLOAT_VEC3:
-        return gl::Uniform3fv(to.location, 1, floats);
-    case GL_FLOAT_VEC4:
-        return gl::Uniform4fv(to.location, 1, floats);
-    case GL_INT_VEC2:
-        return gl::Uniform2iv(to.location, 1, integers);
-    case GL_INT_VEC3:
-        return gl::Uniform3iv(to.location, 1, integers);
-    case GL_INT_VEC4:
-        return gl::Uniform4iv(to.location, 1, integers);
-    case GL_UNSIGNED_INT:
-        return gl::Uniform1ui(to.location, words.front());
-    case GL_FLOAT_MAT4:
-        return gl::UniformMatrix4fv(to.location, 1, to.transposed ? GL_TRUE : GL_FALSE, floats);
-    default: // int, bool, samplers and images
-        return gl::Uniform1i(to.location, *integers);
-    }
+    if (!set_uniform_words(to.location, to.type, words, to.transposed))
+        gl::Uniform1i(to.location, static_cast<GLint>(words.front())); // samplers and images
 }
 
 void UniformValues::bind() const {

@@ -31,7 +31,7 @@ struct NumberTable {
 /// The bits of a number as a table writes it, rounded once; nothing for a text that is none of the column's.
 std::optional<std::uint32_t> number_bits(std::string_view text, const TableColumn& column);
 
-/// What such a text is, and what is a number of the column's: "no int; right is 7, -7 or 0x7".
+/// Words for a text that is no number of the column's: "no int; right is 7, -7 or 0x7".
 std::string_view no_number(const TableColumn& column);
 
 /// Reads FILE.json, an array of objects by the columns' names, or a CSV file with a heading, a component a column

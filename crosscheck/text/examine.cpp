@@ -354,8 +354,10 @@ ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
         sized.push_back(name);
     check_names("--size", of.sizes, sized);
     check_invocations(of, program);
-    const MadeUpWorld world = world_of(of, program);
-    const MadeUpWorld watched = world.copy();
+    const MadeUpWorld watched = world_of(of, program);
+    std::optional<MadeUpWorld> before; // for the driver, which starts from the same
+    if (gl != nullptr)
+        before = watched.copy();
     text::Findings findings;
     const Profile profile = named_profile("strict");
     if (program.stage == spv::ExecutionModelGLCompute)
@@ -368,8 +370,8 @@ ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
     else
         text::run_stage(program, stage_run_of(of, program), watched.bindings, profile, findings);
     ExaminationResult result;
-    if (gl != nullptr)
-        result.gpu = compare_with_gpu(*gl, *source, program, of.groups, world, findings);
+    if (before)
+        result.gpu = compare_with_gpu(*gl, *source, program, of.groups, *before, findings);
     result.ran = what_ran(of, program);
     if (program.stage == spv::ExecutionModelGLCompute)
         result.group_size = program.invocations();

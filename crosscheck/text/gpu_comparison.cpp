@@ -90,9 +90,8 @@ struct Differing {
     std::uint32_t expected = 0, got = 0;
 };
 
-std::string word_text(std::uint32_t bits, bool is_real) {
-    return is_real ? fmt::format("{:.9g} ({:#010x})", std::bit_cast<float>(bits), bits)
-                   : fmt::format("{} ({:#010x})", static_cast<std::int32_t>(bits), bits);
+std::string with_bits(std::uint32_t bits, bool is_real) {
+    return fmt::format("{} ({:#010x})", text::value_text(bits, is_real), bits);
 }
 
 /// Judges the words that one invocation wrote otherwise than the text.
@@ -138,7 +137,7 @@ class Judge {
         const std::string& name = one.place.space == Space::block ? program_.blocks[one.place.number].name
                                                                   : program_.images[one.place.number].name;
         return fmt::format("{}{} word {}: expected {}, the driver made {}{}", where, name, one.place.word,
-                           word_text(one.expected, is_real), word_text(one.got, is_real),
+                           with_bits(one.expected, is_real), with_bits(one.got, is_real),
                            invocation ? "" : "; the text writes nothing there");
     }
 

@@ -20,7 +20,7 @@ struct MeasuredGl {
     Profile profile;
 };
 
-/// What a driver made of a dispatch, held against what the shader's own text allows.
+/// A driver's words of a dispatch beside those that the shader's own text allows.
 struct GpuComparison {
     std::string gl;
     std::string not_run;       ///< why it was not run; empty: it was

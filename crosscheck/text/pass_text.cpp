@@ -335,9 +335,16 @@ void PassText::run_into(const Input& input, const Profile& profile, text::Findin
             bindings, profile, findings);
         return;
     }
-    text::StageRun run = input.vertices;
-    run.is_watched = how.is_watched;
-    const text::StageResult made = text::run_stage(program_, run, bindings, profile, findings);
+    if (how.is_watched) {
+        text::StageRun run = input.vertices;
+        run.is_watched = true;
+        run.keeps_outputs = false;
+        if (how.wants)
+            run.wants = [&](std::uint32_t first) { return how.wants({first / text::lanes_at_once, 0, 0}); };
+        text::run_stage(program_, run, bindings, profile, findings);
+        return;
+    }
+    const text::StageResult made = text::run_stage(program_, input.vertices, bindings, profile, findings);
     std::vector<std::uint32_t>& words = to[blocks_.size() + images_.size()];
     const std::vector<Component>& record = captured_->record;
     for (std::size_t k = 0; k < record.size(); ++k) {

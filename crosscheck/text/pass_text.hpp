@@ -43,7 +43,8 @@ class PassText {
     /// An item, one invocation: a vertex.
     [[nodiscard]] bool is_vertex() const { return pass_.stage == Stage::vertex; }
 
-    /// What is run of a dispatch, as text::Dispatch has it; of a vertex pass all.
+    /// What is run of a dispatch, as text::Dispatch has it. Vertices that are watched count as groups of lanes_at_once,
+    /// and make no words.
     struct How {
         std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
         bool is_watched = false;

@@ -70,29 +70,25 @@ class Runs {
     std::vector<std::uint32_t> blocks_, images_;
 };
 
-std::string value_text(std::uint32_t bits, bool is_real) {
-    return is_real ? fmt::format("{:.9g}", std::bit_cast<float>(bits))
-                   : fmt::format("{}", static_cast<std::int32_t>(bits));
-}
-
 std::string what_of(const text::Trace& trace, const text::Suspect& suspect) {
     const text::TraceRow& row = trace.rows[suspect.row];
     if (row.kind == text::TraceRow::Kind::store)
-        return fmt::format("writes {}, which the reference does not write there", value_text(row.bits, row.is_real));
+        return fmt::format("writes {}, which the reference does not write there",
+                           text::value_text(row.bits, row.is_real));
     if (row.kind == text::TraceRow::Kind::comparison) {
         const auto operands = trace.of(row);
-        const std::string compared = operands.size() == 2
-                                         ? fmt::format("compares {} and {}", value_text(operands[0].bits, row.is_real),
-                                                       value_text(operands[1].bits, row.is_real))
-                                         : "asks";
+        const std::string compared =
+            operands.size() == 2 ? fmt::format("compares {} and {}", text::value_text(operands[0].bits, row.is_real),
+                                               text::value_text(operands[1].bits, row.is_real))
+                                 : "asks";
         return fmt::format("{}, which the reference does not{}", compared,
                            suspect.repairs ? "; with the other answer all that it writes is right" : "");
     }
     const std::string made = fmt::format("{} {}", row.kind == text::TraceRow::Kind::load ? "reads" : "makes",
-                                         value_text(row.bits, row.is_real));
-    return suspect.repairs
-               ? fmt::format("{}; with {} all that it writes is right", made, value_text(suspect.repaired, row.is_real))
-               : fmt::format("{}, which the reference does not", made);
+                                         text::value_text(row.bits, row.is_real));
+    return suspect.repairs ? fmt::format("{}; with {} all that it writes is right", made,
+                                         text::value_text(suspect.repaired, row.is_real))
+                           : fmt::format("{}, which the reference does not", made);
 }
 
 /// What speaks for a line.
@@ -162,7 +158,7 @@ std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& re
             if (!at)
                 continue;
             if (missing[*at].what.empty())
-                missing[*at].what = value_text(one.bits, one.is_real);
+                missing[*at].what = text::value_text(one.bits, one.is_real);
             missed.insert(*at);
         }
         for (const std::uint32_t at : missed)

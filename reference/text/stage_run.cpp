@@ -146,6 +146,8 @@ StageResult run_stage(const Program& program, const StageRun& run, const Binding
             result.outputs[name_of(output)].reserve(std::size_t{output.cells} * run.invocations);
     std::vector<Invocation> invocations;
     for (std::uint32_t first = 0; first < run.invocations; first += at_once) {
+        if (run.wants && !run.wants(first))
+            continue;
         invocations.clear();
         for (std::uint32_t l = 0; l < at_once && first + l < run.invocations; ++l)
             invocations.push_back({.number = first + l});

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ struct StageRun {
     std::uint32_t most_branches = 50'000'000; ///< as Dispatch::most_branches
     std::uint32_t subgroup_size = 0;          ///< as Dispatch::subgroup_size
     bool keeps_outputs = true;                ///< false: StageResult stays empty
+    /// Which run of each lanes_at_once, by the first; empty: all. Those that do not are in no StageResult.
+    std::function<bool(std::uint32_t first)> wants = {};
 };
 
 /// What a stage made.

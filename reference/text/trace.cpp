@@ -1,5 +1,9 @@
 #include "reference/text/trace.hpp"
 
+#include <bit>
+
+#include <fmt/format.h>
+
 #include "reference/subnormals.hpp"
 #include "reference/text/glsl_functions.hpp"
 #include "reference/text/machine_flow.hpp"
@@ -18,6 +22,11 @@ std::vector<std::uint32_t> lines_of(const Program& program, const Trace& trace, 
             return lines;
         step = trace.calls[call - 1].step;
     }
+}
+
+std::string value_text(std::uint32_t bits, bool is_real) {
+    return is_real ? fmt::format("{:.9g}", std::bit_cast<float>(bits))
+                   : fmt::format("{}", static_cast<std::int32_t>(bits));
 }
 
 std::vector<TracedWord> run_traced(const Program& program, const Invocation& invocation,

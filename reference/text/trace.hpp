@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "reference/model/profile.hpp"
@@ -48,6 +49,9 @@ struct Trace {
 
 /// The lines that lead to a row, its own first, then those of the calls around it.
 std::vector<std::uint32_t> lines_of(const Program& program, const Trace& trace, const TraceRow& row);
+
+/// The number that a word is.
+std::string value_text(std::uint32_t bits, bool is_real);
 
 /// A row that gets other bits than it was made with.
 struct ForcedRow {

@@ -277,6 +277,18 @@ TEST_CASE("text stages: a watched run finds outputs that are not written, and wh
     endless.most_branches = 1000;
     CHECK(endless.run(70).outputs.at("gl_Position").size() == 4 * text::lanes_at_once);
     CHECK(endless.found().size() == 1);
+    // Of a sample, the vertices that are looked into alone.
+    TextStage sampled(Stage::vertex, "void main() {\nfloat v;\ngl_Position = vec4(gl_VertexID < 64 ? 1.0 : v); }\n");
+    const auto found_from = [&](std::uint32_t wanted) {
+        text::Findings findings;
+        text::StageRun run{.invocations = 100, .is_watched = true, .keeps_outputs = false};
+        run.wants = [&](std::uint32_t first) { return first >= wanted; };
+        text::run_stage(sampled.program, run, sampled.bindings(), named_profile("llvmpipe"), findings);
+        return findings.all().empty() ? 0 : findings.all().front().place.invocation;
+    };
+    CHECK(found_from(0) == 64);
+    CHECK(found_from(96) == 96);
+    CHECK(found_from(100) == 0);
     const std::string strip =
         "layout(points) in;\nlayout(points, max_vertices = 2) out;\nin float v_X[]; out float g_X;\n";
     CHECK(found(Stage::geometry, strip + "void main() { g_X = v_X[0];\nEmitVertex();\nEmitVertex(); }") ==

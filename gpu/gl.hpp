@@ -132,11 +132,9 @@
     X(TexSubImage2D)                                                                                                   \
     X(TexSubImage3D)                                                                                                   \
     X(TransformFeedbackVaryings)                                                                                       \
-    X(Uniform1f)                                                                                                       \
     X(Uniform1fv)                                                                                                      \
     X(Uniform1i)                                                                                                       \
     X(Uniform1iv)                                                                                                      \
-    X(Uniform1ui)                                                                                                      \
     X(Uniform1uiv)                                                                                                     \
     X(Uniform2fv)                                                                                                      \
     X(Uniform2iv)                                                                                                      \

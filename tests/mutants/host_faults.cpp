@@ -97,17 +97,24 @@ template <auto Before, auto After> void draw_points(GLenum mode, GLint first, GL
 }
 
 /// Value `Change`d for uniform `Name` of the pass that steps the particles.
-template <const char* Name, auto Change> void uniform_float(GLint location, GLfloat value) {
+template <const char* Name, auto Change> void uniform_float(GLint location, GLsizei count, const GLfloat* value) {
     const bool faulty = in_step() && is_uniform(location, Name);
-    state.real.Uniform1f(location, faulty ? Change(value) : value);
+    const GLfloat changed = Change(*value);
+    state.real.Uniform1fv(location, count, faulty ? &changed : value);
 }
-template <const char* Name, auto Change> void uniform_int(GLint location, GLint value) {
+template <const char* Name, auto Change> void uniform_int(GLint location, GLsizei count, const GLint* value) {
     const bool faulty = in_step() && is_uniform(location, Name);
-    state.real.Uniform1i(location, faulty ? Change(value) : value);
+    const GLint changed = Change(*value);
+    state.real.Uniform1iv(location, count, faulty ? &changed : value);
 }
 /// In whatever pass.
-template <const char* Name, auto Change> void every_uniform_int(GLint location, GLint value) {
-    state.real.Uniform1i(location, is_uniform(location, Name) ? Change(value) : value);
+template <const char* Name, auto Change> void every_uniform_int(GLint location, GLsizei count, const GLint* value) {
+    const GLint changed = Change(*value);
+    state.real.Uniform1iv(location, count, is_uniform(location, Name) ? &changed : value);
+}
+/// A sampler's texture unit.
+template <const char* Name, GLint Unit> void uniform_unit(GLint location, GLint value) {
+    state.real.Uniform1i(location, in_step() && is_uniform(location, Name) ? Unit : value);
 }
 template <const char* Name, auto Change> void uniform_vector(GLint location, GLsizei count, const GLfloat* value) {
     std::array<GLfloat, 3> vector{value[0], value[1], value[2]};
@@ -170,16 +177,16 @@ void use_first_matrix(Matrix& m) {
     m = state.matrix;
 }
 
-void swap_image_size(GLint location, GLint value) {
+void swap_image_size(GLint location, GLsizei count, const GLint* value) {
     GLint program = 0;
     state.real.GetIntegerv(GL_CURRENT_PROGRAM, &program);
     for (const auto& [name, other] :
          {std::pair{"u_ClientWidth", "u_ClientHeight"}, {"u_ClientHeight", "u_ClientWidth"}})
         if (in_collision_pass() && is_uniform(location, name)) {
-            state.real.Uniform1i(state.real.GetUniformLocation(static_cast<GLuint>(program), other), value);
+            state.real.Uniform1iv(state.real.GetUniformLocation(static_cast<GLuint>(program), other), count, value);
             return;
         }
-    state.real.Uniform1i(location, value);
+    state.real.Uniform1iv(location, count, value);
 }
 
 template <int X, int Width, int Height> void viewport(GLint x, GLint y, GLsizei width, GLsizei height) {
@@ -368,7 +375,7 @@ const Fault faults[] = {
      }},
     {"texture_filtered", [] { gl::TexParameteri = texture_parameter<GL_TEXTURE_MAG_FILTER, GL_LINEAR>; }},
     {"texture_repeated", [] { gl::TexParameteri = texture_parameter<GL_TEXTURE_WRAP_S, GL_REPEAT>; }},
-    {"texture_unit_wrong", [] { gl::Uniform1i = uniform_int<cd_texture, [](int) { return 1; }>; }},
+    {"texture_unit_wrong", [] { gl::Uniform1i = uniform_unit<cd_texture, 1>; }},
     {"texture_not_swapped",
      [] {
          gl::ActiveTexture = note_active_texture;
@@ -414,23 +421,23 @@ const Fault faults[] = {
              state.real.UniformMatrix4fv(location, count, transposed, matrix.data());
          };
      }},
-    {"image_size_swapped", [] { gl::Uniform1i = swap_image_size; }},
-    {"image_width_one_less", [] { gl::Uniform1i = uniform_int<client_width, [](int w) { return w - 1; }>; }},
-    {"radius_one_more", [] { gl::Uniform1i = uniform_int<radius, [](int r) { return r + 1; }>; }},
-    {"radius_one_less", [] { gl::Uniform1i = uniform_int<radius, [](int r) { return r - 1; }>; }},
-    {"radius_not_set", [] { gl::Uniform1i = uniform_int<radius, [](int) { return 0; }>; }},
-    {"range_not_set", [] { gl::Uniform1f = uniform_float<collision_range, [](float) { return 0.0F; }>; }},
-    {"range_doubled", [] { gl::Uniform1f = uniform_float<collision_range, [](float x) { return 2.0F * x; }>; }},
-    {"time_not_set", [] { gl::Uniform1f = uniform_float<collision_time, [](float) { return 0.0F; }>; }},
-    {"time_one_ulp", [] { gl::Uniform1f = uniform_float<collision_time, one_ulp_up>; }},
-    {"speed_factor_one", [] { gl::Uniform1f = uniform_float<speed_factor, [](float) { return 1.0F; }>; }},
-    {"speed_factor_one_ulp", [] { gl::Uniform1f = uniform_float<speed_factor, one_ulp_up>; }},
-    {"speed_factor_complement", [] { gl::Uniform1f = uniform_float<speed_factor, [](float x) { return 1.0F - x; }>; }},
-    {"tick_doubled", [] { gl::Uniform1f = uniform_float<tick, [](float x) { return 2.0F * x; }>; }},
-    {"tick_halved", [] { gl::Uniform1f = uniform_float<tick, [](float x) { return 0.5F * x; }>; }},
-    {"tick_one_ulp", [] { gl::Uniform1f = uniform_float<tick, one_ulp_up>; }},
-    {"tick_not_set", [] { gl::Uniform1f = uniform_float<tick, [](float) { return 0.0F; }>; }},
-    {"tick_of_60_hertz", [] { gl::Uniform1f = uniform_float<tick, [](float) { return 1.0F / 60.0F; }>; }},
+    {"image_size_swapped", [] { gl::Uniform1iv = swap_image_size; }},
+    {"image_width_one_less", [] { gl::Uniform1iv = uniform_int<client_width, [](int w) { return w - 1; }>; }},
+    {"radius_one_more", [] { gl::Uniform1iv = uniform_int<radius, [](int r) { return r + 1; }>; }},
+    {"radius_one_less", [] { gl::Uniform1iv = uniform_int<radius, [](int r) { return r - 1; }>; }},
+    {"radius_not_set", [] { gl::Uniform1iv = uniform_int<radius, [](int) { return 0; }>; }},
+    {"range_not_set", [] { gl::Uniform1fv = uniform_float<collision_range, [](float) { return 0.0F; }>; }},
+    {"range_doubled", [] { gl::Uniform1fv = uniform_float<collision_range, [](float x) { return 2.0F * x; }>; }},
+    {"time_not_set", [] { gl::Uniform1fv = uniform_float<collision_time, [](float) { return 0.0F; }>; }},
+    {"time_one_ulp", [] { gl::Uniform1fv = uniform_float<collision_time, one_ulp_up>; }},
+    {"speed_factor_one", [] { gl::Uniform1fv = uniform_float<speed_factor, [](float) { return 1.0F; }>; }},
+    {"speed_factor_one_ulp", [] { gl::Uniform1fv = uniform_float<speed_factor, one_ulp_up>; }},
+    {"speed_factor_complement", [] { gl::Uniform1fv = uniform_float<speed_factor, [](float x) { return 1.0F - x; }>; }},
+    {"tick_doubled", [] { gl::Uniform1fv = uniform_float<tick, [](float x) { return 2.0F * x; }>; }},
+    {"tick_halved", [] { gl::Uniform1fv = uniform_float<tick, [](float x) { return 0.5F * x; }>; }},
+    {"tick_one_ulp", [] { gl::Uniform1fv = uniform_float<tick, one_ulp_up>; }},
+    {"tick_not_set", [] { gl::Uniform1fv = uniform_float<tick, [](float) { return 0.0F; }>; }},
+    {"tick_of_60_hertz", [] { gl::Uniform1fv = uniform_float<tick, [](float) { return 1.0F / 60.0F; }>; }},
     {"gravity_not_set", [] { gl::Uniform3fv = uniform_vector<gravity, [](GLfloat* g) { std::fill_n(g, 3, 0.0F); }>; }},
     {"gravity_doubled",
      [] {
@@ -629,14 +636,14 @@ const Fault faults[] = {
              state.real.BindBufferBase(target, index, target == GL_SHADER_STORAGE_BUFFER && index == 4 ? 0 : buffer);
          };
      }},
-    {"layer_always_first", [] { gl::Uniform1i = every_uniform_int<layer_number, [](int) { return 0; }>; }},
-    {"layer_one_more", [] { gl::Uniform1i = every_uniform_int<layer_number, [](int l) { return l + 1; }>; }},
+    {"layer_always_first", [] { gl::Uniform1iv = every_uniform_int<layer_number, [](int) { return 0; }>; }},
+    {"layer_one_more", [] { gl::Uniform1iv = every_uniform_int<layer_number, [](int l) { return l + 1; }>; }},
     {"keys_never_cleared", [] { gl::ClearBufferiv = [](GLenum, GLint, const GLint*) {}; }},
     {"reach_not_set", [] { gl::Uniform3fv = uniform_vector<reach, [](GLfloat* v) { std::fill_n(v, 3, 0.0F); }>; }},
     {"second_reach_not_set",
      [] { gl::Uniform3fv = uniform_vector<second_reach, [](GLfloat* v) { std::fill_n(v, 3, 0.0F); }>; }},
-    {"margin_not_set", [] { gl::Uniform1f = uniform_float<window_margin, [](float) { return 0.0F; }>; }},
-    {"obstacles_not_told", [] { gl::Uniform1i = uniform_int<obstacles, [](int) { return 0; }>; }},
+    {"margin_not_set", [] { gl::Uniform1fv = uniform_float<window_margin, [](float) { return 0.0F; }>; }},
+    {"obstacles_not_told", [] { gl::Uniform1iv = uniform_int<obstacles, [](int) { return 0; }>; }},
     {"second_matrix_not_set",
      [] {
          gl::UniformMatrix4fv = [](GLint location, GLsizei count, GLboolean transposed, const GLfloat* value) {

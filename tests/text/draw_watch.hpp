@@ -272,7 +272,7 @@ class DrawWatch {
             }
             switch (kind) {
             case GL_FLOAT:
-                gl::Uniform1f(at, reals[0]);
+                gl::Uniform1fv(at, 1, reals.data());
                 break;
             case GL_FLOAT_VEC2:
                 gl::Uniform2fv(at, 1, reals.data());
@@ -296,7 +296,7 @@ class DrawWatch {
                 gl::Uniform4iv(at, 1, numbers.data());
                 break;
             case GL_UNSIGNED_INT:
-                gl::Uniform1ui(at, static_cast<GLuint>(numbers[0]));
+                gl::Uniform1uiv(at, 1, reinterpret_cast<const GLuint*>(numbers.data()));
                 break;
             default: // int, bool, samplers
                 gl::Uniform1i(at, numbers[0]);

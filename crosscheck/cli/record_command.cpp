@@ -15,6 +15,7 @@
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/fragment_stages.hpp"
+#include "crosscheck/scene/kept_probe.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
@@ -48,7 +49,7 @@ void prove(GpuSimulation& gpu, const FrameParams& params, const Particles& parti
 }
 
 TraceInfo info_of(const RecordRequest& options, Scene scene, const Context& context, const ShaderUse& shaders) {
-    const ProbeResult probed = probe(context);
+    const ProbeResult probed = kept_probe(context);
     TraceInfo info;
     info.profile = with_written_codes(measured_profile(probed, options.run.shaders), scene, options.run.shaders);
     info.renderer = summary(context.describe());

@@ -1,6 +1,7 @@
 #include <cstdlib>
 
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/scene/kept_probe.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/probe.hpp"
 #include "lockstep/lockstep.hpp"
@@ -26,7 +27,7 @@ Gl::Gl(std::string_view context) : asked_(asked_for(context)) {
         missing_ = error.what();
         return;
     }
-    probed_ = std::make_shared<const ProbeResult>(probe(*context_));
+    probed_ = std::make_shared<const ProbeResult>(kept_probe(*context_));
     profile_ = measured_profile(*probed_);
 }
 

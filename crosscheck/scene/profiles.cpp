@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/scene/fragment_stages.hpp"
+#include "crosscheck/scene/kept_probe.hpp"
 #include "gpu/collision/collision_shaders.hpp"
 #include "gpu/probe/root_tables.hpp"
 #include "gpu/shader_source.hpp"
@@ -465,7 +466,7 @@ bool built_from_driver_roots(const ProbeResult& result) {
 }
 
 Profile measured_profile(const Context& context, const std::filesystem::path& shaders) {
-    return measured_profile(probe(context), shaders);
+    return measured_profile(kept_probe(context), shaders);
 }
 
 Profile measured_profile(const ProbeResult& result, const std::filesystem::path& shaders) {

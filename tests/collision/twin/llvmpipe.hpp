@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "crosscheck/scene/kept_probe.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "tests/gpu/any_context.hpp"
 
@@ -33,7 +34,7 @@ inline std::optional<Context> open_llvmpipe(const std::string& name = software_g
         return context;
     if (context->describe().renderer.find("llvmpipe") != std::string::npos) {
         if (summary(probed_llvmpipe().context) != summary(context->describe()))
-            probed_llvmpipe() = probe(*context);
+            probed_llvmpipe() = kept_probe(*context);
         return context;
     }
     skip(name + " is not llvmpipe but " + context->describe().renderer);

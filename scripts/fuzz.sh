@@ -4,16 +4,14 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-200}
-cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Release -DLOCKSTEP_FUZZ=ON \
-    -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1 -fno-omit-frame-pointer" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 \
-    -DLOCKSTEP_BUILD_TESTS=OFF -DLOCKSTEP_SYSTEMS= > /dev/null # the readers know the collision system alone
-cmake --build build/fuzz --target lockstep_fuzz_scene lockstep_fuzz_capsule lockstep_fuzz_messages > /dev/null
+cmake --preset sanitize > /dev/null
+cmake --build --preset sanitize --target lockstep_fuzz_scene lockstep_fuzz_capsule lockstep_fuzz_messages > /dev/null
 fuzz() {
-    reader=$1 found=build/fuzz/found/$1
+    reader=$1 found=build/sanitize/found/$1
     rm -rf "$found" # a crash that was mended is no failure
     mkdir -p "$found"
     # rss: a message may ask for as much as its limits allow.
-    nice -n 19 "build/fuzz/tests/fuzz/lockstep_fuzz_$reader" -max_total_time="$seconds" -rss_limit_mb=4096 \
+    nice -n 19 "build/sanitize/tests/fuzz/lockstep_fuzz_$reader" -max_total_time="$seconds" -rss_limit_mb=4096 \
         -malloc_limit_mb=3500 -timeout=20 -print_final_stats=1 -artifact_prefix="$found/crash-" "$found" \
         "tests/fuzz/corpus/$reader" 2>&1 | grep -E "^(stat::number|SUMMARY|==)|Test unit" | sed "s/^/$reader: /" || true
     ! ls "$found"/crash-* > /dev/null 2>&1 || { echo "fuzz: $reader breaks on $found/crash-*" >&2; return 1; }

@@ -10,8 +10,7 @@ short=()
 if [ "${1:-}" = --short ]; then short=(--short) && shift; fi
 scripts/install_packages.sh --for sanitize
 scripts/build_report_page.sh > /dev/null
-cmake --preset sanitize -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O0 -g1" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 \
-    -DLOCKSTEP_BUILD_TESTS=OFF > /dev/null
-cmake --build build/sanitize --target lockstep
+cmake --preset sanitize > /dev/null
+cmake --build --preset sanitize --target lockstep
 tests/matrix/run_matrix.py build/sanitize/crosscheck/lockstep "${short[@]}"
 scripts/fuzz.sh "${1:-60}"

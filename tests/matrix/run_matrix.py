@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs every verb on every system with shaders of every verdict class and writes every output: what a report line indexes,
 joins or prints is executed for each class, also for those that no shipped scene gives on llvmpipe. Cases marked all_verbs
-in cases.json go through all verbs, the others through `check`. CI runs it with the program of the tests;
-scripts/sanitize.sh with one that was built with sanitizers, whose reports end a run with exit status 99.
+in cases.json go through all verbs, the others through `check`. CI runs it with a program
+that was built with sanitizers (scripts/sanitize.sh), whose reports end a run with exit status 99.
 
 Held of each run: the exit status and the verdict that cases.json expects, no signal, no sanitizer report, an end in time,
 outputs that parse.
@@ -28,7 +28,7 @@ root = pathlib.Path(__file__).resolve().parent.parent.parent
 here = pathlib.Path(__file__).resolve().parent
 limit_s = 300
 # What the program says of a child process that ended with a report: behind its fence that reaches no terminal.
-child_fault = r"ended the process|crashed with signal|needs too much memory|did not answer within"
+child_fault = r"ended the process|crashed with signal|needs too much memory|did not answer within|processor time in"
 
 
 class Run:

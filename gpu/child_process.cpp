@@ -129,13 +129,21 @@ std::string in_child(const ChildRules& rules, const std::function<std::string()>
         errno = reason;
         fail();
     }
-    const std::optional<std::string> answer = read_all(ends[0], std::chrono::seconds(rules.seconds));
+    // A fenced child waits for nothing, and its processor time is bounded: only one that gets no turn takes longer.
+    constexpr int turns = 15;
+    const int patience = rules.fenced ? turns * rules.seconds : rules.seconds;
+    const std::optional<std::string> answer = read_all(ends[0], std::chrono::seconds(patience));
     close(ends[0]);
     if (!answer)
         kill(child, SIGKILL);
     const int status = ended(child);
+    if (!answer && rules.fenced)
+        throw ChildStarved(fmt::format("{} got no {} s of processor time in {} s: the machine is too busy",
+                                       rules.subject, rules.seconds, patience));
     if (!answer)
-        throw ChildFailed(fmt::format("{} did not answer within {} s", rules.subject, rules.seconds));
+        throw ChildFailed(fmt::format("{} did not answer within {} s", rules.subject, patience));
+    if (rules.fenced && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+        throw ChildFailed(fmt::format("{} needs more than {} s of processor time", rules.subject, rules.seconds));
     if (WIFSIGNALED(status))
         throw ChildFailed(fmt::format("{} crashed with signal {} ({})", rules.subject, WTERMSIG(status),
                                       strsignal(WTERMSIG(status))));

@@ -247,12 +247,15 @@ int run_function(const FunctionRequest& options) {
         for (const UndefinedRow& one : undefined)
             document["undefined_rows"].push_back(
                 {{"row", one.row}, {"where", one.where}, {"rule", one.rule}, {"what", one.what}});
+        for (const ReadText* one : {&own, &other})
+            if (!one->missing.empty())
+                document["texts_not_read"].push_back(plain_line(one->missing));
         files.write(options.json, json_text(document));
     }
     files.commit();
     if (!options.quiet)
-        fmt::print("{}{}", agrees && !undefined.empty() ? std::string() : colored(plain_text(result->text())),
-                   colored(plain_text(open)));
+        fmt::print("{}{}{}", agrees && !undefined.empty() ? std::string() : colored(plain_text(result->text())),
+                   colored(plain_text(open)), plain_text(unread_text({own.missing, other.missing})));
     return agrees && undefined.empty() ? status_agree : status_differ;
 }
 

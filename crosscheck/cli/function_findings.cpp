@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/files/plain_text.hpp"
+
 namespace lockstep {
 
 FunctionRows without(const FunctionRows& rows, const std::vector<UndefinedRow>& undefined) {
@@ -45,6 +47,17 @@ std::string undefined_text(const FunctionRows& rows, const std::vector<Undefined
     }
     if (undefined.size() > most)
         all += fmt::format("          and {} rows more\n", undefined.size() - most);
+    return all;
+}
+
+std::string unread_text(std::initializer_list<std::string> reasons) {
+    std::string all;
+    for (const std::string& reason : reasons)
+        if (!reason.empty())
+            all += fmt::format(
+                "note      the text is not read: {}\n"
+                "          undefined operands and unset variables stay unseen, and each result is one value\n",
+                plain_line(reason));
     return all;
 }
 

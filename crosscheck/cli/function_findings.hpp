@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,8 @@ FunctionRows without(const FunctionRows& rows, const std::vector<UndefinedRow>& 
 
 /// The verdict on a table with such rows, and a line for each; `others`: rows that were judged, all of which agree.
 std::string undefined_text(const FunctionRows& rows, const std::vector<UndefinedRow>& undefined, std::size_t others);
+
+/// What the verdict does without, where a function's text is not read. `reasons`: for each text why, empty: it is read.
+std::string unread_text(std::initializer_list<std::string> reasons);
 
 } // namespace lockstep

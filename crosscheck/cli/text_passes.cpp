@@ -12,6 +12,7 @@
 #include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/dispatch.hpp"
+#include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/open_pass.hpp"
 #include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/text/examine.hpp"
@@ -99,29 +100,34 @@ OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const st
 
 namespace {
 
-/// Items that the GPU made otherwise than the reference, and such that both changed alike; few of each, from all over.
+/// Items that diverge, and such that both sides changed alike; few of each, from all over.
 struct SomeItems {
     std::vector<std::size_t> wrong, right;
 };
 
+std::vector<std::size_t> spread(const std::vector<std::size_t>& items, std::size_t most) {
+    std::vector<std::size_t> some;
+    for (std::size_t k = 0; k < std::min(most, items.size()); ++k)
+        some.push_back(items[k * items.size() / std::min(most, items.size())]);
+    return some;
+}
+
 SomeItems some_items(const JudgedPass& judged) {
-    constexpr std::size_t most = 10;
-    SomeItems all;
+    constexpr std::size_t most = 10, most_judged = 60;
+    std::vector<std::size_t> different, alike, wrong;
     const std::uint8_t r = judged.pass.resource();
     for (std::size_t item = 0; item < judged.gpu.count(); ++item) {
         const auto gpu = item_words(judged.gpu, item);
         if (gpu != item_words(judged.reference, item))
-            all.wrong.push_back(item);
+            different.push_back(item);
         else if (gpu != item_words(judged.before[r], item))
-            all.right.push_back(item);
+            alike.push_back(item);
     }
-    for (std::vector<std::size_t>* items : {&all.wrong, &all.right}) {
-        std::vector<std::size_t> some;
-        for (std::size_t k = 0; k < std::min(most, items->size()); ++k)
-            some.push_back((*items)[k * items->size() / std::min(most, items->size())]);
-        *items = std::move(some);
-    }
-    return all;
+    // What is legal follows from no line of the text alone.
+    for (const std::size_t item : spread(different, most_judged))
+        if (judge_item(judged, item).kind == DifferenceClass::divergent)
+            wrong.push_back(item);
+    return {spread(wrong, most), spread(alike, most)};
 }
 
 } // namespace

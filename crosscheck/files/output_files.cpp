@@ -1,6 +1,7 @@
 #include "crosscheck/files/output_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <utility>
 
@@ -83,6 +84,12 @@ AtomicFile& OutputFiles::add(const fs::path& file) {
 void OutputFiles::expect(const fs::path& file) {
     any = true;
     add(file);
+    // Options in the wrong order: a shader's name where the report's was meant.
+    static constexpr std::array shaders{".vert", ".tesc", ".tese", ".geom", ".frag", ".comp", ".glsl", ".spv"};
+    if (std::ranges::find(shaders, file.extension().string()) != shaders.end())
+        throw Error(
+            fmt::format("{}: cannot be written: it is a shader by its name; expected another for what the run makes",
+                        plain_line(file.string())));
 }
 
 std::string OutputFiles::written_text() const {

@@ -420,6 +420,29 @@ TEST_CASE("function: what --like leaves undefined is UNDEFINED, too") {
     CHECK_THAT(outcome.out, Contains("UNDEFINED: 2 of 2 rows") && Contains("variable z"));
 }
 
+TEST_CASE("function: a text that is not read is said, whatever the rows are held against") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder;
+    // The shift is undefined; the double is what lockstep does not interpret.
+    const std::string mine =
+        folder.write("mine.glsl", "int shifted(int a) {\n    double d = 0.5;\n    return int(d) + (1 << a);\n}\n")
+            .string();
+    const std::string table = folder.write("table.csv", "a,result\n41,512\n").string();
+    const std::string arguments = folder.write("arguments.csv", "a\n3\n").string();
+    const std::string json = (folder.path() / "report.json").string();
+    const test::Outcome outcome =
+        run_lockstep({"function", mine, "shifted", "--table", table, "--json", json, "--gl", test::software_gl()});
+    INFO(outcome.out << outcome.err);
+    CHECK_THAT(outcome.out, Contains("note      the text is not read: ") && Contains("undefined operands"));
+    CHECK(nlohmann::json::parse(std::ifstream(json))["texts_not_read"].size() == 1);
+    const std::string other = folder.write("other.glsl", "int shifted(int a) {\n    return 1 << a;\n}\n").string();
+    CHECK_THAT(
+        run_lockstep({"function", other, "shifted", "--table", arguments, "--like", mine, "--gl", test::software_gl()})
+            .out,
+        Contains("note      the text is not read: "));
+}
+
 TEST_CASE("function: an expression of 20,000 terms ends in a verdict or in one line, whatever a compiler makes of it") {
     if (!test::have_software_gl())
         return;

@@ -37,8 +37,24 @@ TEST_CASE("child process: a crash, a hang and an exit are errors that name the s
 TEST_CASE("child process: within the fence no file is opened, and memory is bounded") {
     CHECK(in_child({"it", 20, true},
                    [] { return std::string(std::ifstream("/proc/self/status") ? "open" : "shut"); }) == "shut");
+    CHECK_THROWS_WITH(in_child({"it", 1, true},
+                               []() -> std::string {
+                                   std::string text(1, 'x');
+                                   while (text.size() == 1)
+                                       text.assign(1, static_cast<char>(text[0] + 1));
+                                   return text;
+                               }),
+                      "it needs more than 1 s of processor time");
 #ifndef __SANITIZE_ADDRESS__
     CHECK_THROWS_WITH(in_child({"it", 20, true}, [] { return std::string(std::size_t{3} << 30U, 'x').substr(0, 1); }),
                       "it needs too much memory");
 #endif
+}
+
+TEST_CASE("child process: one within the fence that gets no turn is no Error of what it reads", "[.slow]") {
+    const auto stopped = []() -> std::string {
+        std::raise(SIGSTOP);
+        return "";
+    };
+    CHECK_THROWS_AS(in_child({"it", 1, true}, stopped), ChildStarved);
 }

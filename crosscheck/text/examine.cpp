@@ -343,10 +343,18 @@ std::optional<Stage> stage_of(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
+namespace {
+
+text::Program program_of(const std::shared_ptr<const ShaderSource>& source, ConstantExpressions constants) {
+    return text::decoded(text::read_module(spirv_of(*source, constants),
+                                           [source](std::uint32_t line) { return line_name(*source, line); }));
+}
+
+} // namespace
+
 ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
     const std::shared_ptr<const ShaderSource> source = source_of(of);
-    const text::Program program = text::decoded(
-        text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); }));
+    const text::Program program = program_of(source, ConstantExpressions::open);
     check_names("--uniform", of.uniforms, uniform_names(program));
     check_names("--input", of.inputs, input_names(program));
     std::vector<std::string> sized = names_of(program.blocks);
@@ -371,7 +379,8 @@ ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
         text::run_stage(program, stage_run_of(of, program), watched.bindings, profile, findings);
     ExaminationResult result;
     if (before)
-        result.gpu = compare_with_gpu(*gl, *source, program, of.groups, *before, findings);
+        result.gpu = compare_with_gpu(*gl, *source, program_of(source, ConstantExpressions::folded), of.groups, *before,
+                                      findings);
     result.ran = what_ran(of, program);
     if (program.stage == spv::ExecutionModelGLCompute)
         result.group_size = program.invocations();

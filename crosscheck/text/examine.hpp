@@ -18,7 +18,7 @@ namespace lockstep {
 
 /// A run of one stage's text, on numbers that are made up.
 struct Examination {
-    std::filesystem::path file;
+    std::filesystem::path file = {};
     std::array<std::uint32_t, 3> groups{4, 1, 1}; ///< of a compute stage
     /// Vertices, primitives or fragments of another stage, and their inputs by name, the same for all: numbers as they
     /// are typed, since their type is the text's.

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +17,7 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "crosscheck/text/condition_lines.hpp"
+#include "crosscheck/text/open_constants.hpp"
 #include "gpu/child_process.hpp"
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_words.hpp"
@@ -42,6 +45,7 @@ EShLanguage language(Stage stage) {
 struct Reading {
     glslang::EShClient client = glslang::EShClientOpenGL;
     int version = 0;
+    bool is_es = false;
 };
 
 /// Its own dialect first. What was written for versions without SPIR-V means the same in the first that has it, unless
@@ -60,9 +64,9 @@ std::vector<Reading> readings_of(const std::string& text) {
     const int newer = is_es ? es : desktop;
     std::vector<Reading> all;
     for (const glslang::EShClient client : {glslang::EShClientOpenGL, glslang::EShClientVulkan}) {
-        all.push_back({client, 0});
+        all.push_back({client, 0, is_es});
         if (version < newer && !says(text, "__VERSION__"))
-            all.push_back({client, newer});
+            all.push_back({client, newer, is_es});
     }
     return all;
 }
@@ -73,14 +77,17 @@ struct Compiled {
     bool is_linkers = false; ///< the log
 };
 
-Compiled compiled(const ShaderSource& stage, const Reading& as) {
-    constexpr int default_version = 460, client_version = 100;
-    const EShLanguage in = language(stage.stage);
+constexpr int default_version = 460;
+
+EShMessages messages_of(const Reading& as) {
+    return static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo | EShMsgRelaxedErrors |
+                                    (as.client == glslang::EShClientVulkan ? EShMsgVulkanRules : EShMsgDefault));
+}
+
+/// `text` outlives it.
+void set_up(glslang::TShader& shader, const char* const& text, EShLanguage in, const Reading& as) {
+    constexpr int client_version = 100;
     const bool is_vulkan = as.client == glslang::EShClientVulkan;
-    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo | EShMsgRelaxedErrors |
-                                                   (is_vulkan ? EShMsgVulkanRules : EShMsgDefault));
-    glslang::TShader shader(in);
-    const char* text = stage.text.c_str();
     shader.setStrings(&text, 1);
     shader.setEnvInput(glslang::EShSourceGlsl, in, as.client, client_version);
     shader.setEnvClient(as.client, is_vulkan ? glslang::EShTargetVulkan_1_1 : glslang::EShTargetOpenGL_450);
@@ -91,6 +98,14 @@ Compiled compiled(const ShaderSource& stage, const Reading& as) {
         shader.setOverrideVersion(as.version);
     shader.setAutoMapBindings(true);
     shader.setAutoMapLocations(true);
+}
+
+Compiled compiled(const ShaderSource& stage, const std::string& as_text, const Reading& as) {
+    const EShLanguage in = language(stage.stage);
+    const EShMessages messages = messages_of(as);
+    glslang::TShader shader(in);
+    const char* const text = as_text.c_str();
+    set_up(shader, text, in, as);
     if (!shader.parse(GetDefaultResources(), default_version, false, messages))
         return {{}, shader.getInfoLog()};
     glslang::TProgram program;
@@ -117,14 +132,42 @@ std::size_t error_line(const Compiled& one) {
     return line;
 }
 
-/// As bytes, by the first reading that the text allows. Of an error in all of them, the one that comes last in the
-/// text.
-std::string compiled(const ShaderSource& stage) {
-    Compiled furthest;
-    for (const Reading& as : readings_of(stage.text)) {
-        Compiled made = compiled(stage, as);
+/// As bytes, with operands of constant expressions as far as the compiler then takes the text; empty: there are none.
+std::string compiled_open(const ShaderSource& stage, const Reading& as) {
+    constexpr int most_tries = 16;
+    const EShLanguage in = language(stage.stage);
+    glslang::TShader shader(in);
+    const char* const text = stage.text.c_str();
+    set_up(shader, text, in, as);
+    std::string plain;
+    glslang::TShader::ForbidIncluder none;
+    if (!shader.preprocess(GetDefaultResources(), default_version, ENoProfile, false, false, messages_of(as), &plain,
+                           none))
+        return {};
+    std::set<std::size_t> but; // lines where a constant is asked for
+    for (int tries = 0; tries < most_tries; ++tries) {
+        const std::optional<std::string> open = with_open_constants(plain, as.is_es, but);
+        if (!open)
+            return {};
+        Compiled made = compiled(stage, *open, as);
         if (!made.bytes.empty())
             return made.bytes;
+        if (made.is_linkers || !but.insert(error_line(made)).second)
+            return {};
+    }
+    return {};
+}
+
+/// As bytes, by the first reading that the text allows. Of an error in all of them, the one that comes last in the
+/// text.
+std::string compiled(const ShaderSource& stage, ConstantExpressions constants) {
+    Compiled furthest;
+    for (const Reading& as : readings_of(stage.text)) {
+        Compiled made = compiled(stage, stage.text, as);
+        if (!made.bytes.empty()) {
+            std::string open = constants == ConstantExpressions::open ? compiled_open(stage, as) : std::string();
+            return open.empty() ? made.bytes : open;
+        }
         if (furthest.log.empty() || error_line(made) > error_line(furthest))
             furthest = std::move(made);
     }
@@ -134,7 +177,7 @@ std::string compiled(const ShaderSource& stage) {
 
 } // namespace
 
-std::vector<std::uint32_t> spirv_of(const ShaderSource& stage) {
+std::vector<std::uint32_t> spirv_of(const ShaderSource& stage, ConstantExpressions constants) {
     if (stage.module != nullptr)
         return stage.module->words;
     static const bool is_ready = glslang::InitializeProcess();
@@ -144,7 +187,7 @@ std::vector<std::uint32_t> spirv_of(const ShaderSource& stage) {
         throw Error("glslang does not start");
     // It follows expressions by recursion, as deep as they are long.
     constexpr ChildRules compiler{"glslang", 20, true};
-    const std::string bytes = in_child_if_possible(compiler, [&] { return compiled(stage); });
+    const std::string bytes = in_child_if_possible(compiler, [&] { return compiled(stage, constants); });
     std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
     std::memcpy(words.data(), bytes.data(), bytes.size());
     return with_condition_lines(words, stage.text);

@@ -7,9 +7,14 @@
 
 namespace lockstep {
 
+/// What a module has of an expression of constants: its value, or the operation and its operands, which a watched run
+/// then looks at.
+enum class ConstantExpressions : std::uint8_t { folded, open };
+
 /// glslang's SPIR-V for OpenGL of a stage in GLSL, with names and lines; the words of one that is SPIR-V already.
 /// Throws Error `shader FILE:LINE: ...` with glslang's first message.
-std::vector<std::uint32_t> spirv_of(const ShaderSource& stage);
+std::vector<std::uint32_t> spirv_of(const ShaderSource& stage,
+                                    ConstantExpressions constants = ConstantExpressions::folded);
 
 /// "FILE:LINE" of a line of the stage's text, the file's name alone.
 std::string line_name(const ShaderSource& stage, std::uint32_t line);

@@ -157,7 +157,7 @@ void share_buffers(const std::vector<text::Block>& blocks, std::vector<std::span
     }
 }
 
-/// Some 20 s of a watched run.
+/// Some seconds.
 constexpr std::uint32_t most_branches = 10'000'000;
 
 std::uint32_t made_up_size(const text::ImageShape& shape, std::uint32_t axis,
@@ -350,6 +350,32 @@ text::Program program_of(const std::shared_ptr<const ShaderSource>& source, Cons
                                            [source](std::uint32_t line) { return line_name(*source, line); }));
 }
 
+/// Runs a text on what is made up, watched. Returns whether groups hand on to others what they wrote.
+bool run_watched(const Examination& of, const text::Program& program, const MadeUpWorld& world,
+                 text::Findings& findings, bool is_reversed = false) {
+    const Profile profile = named_profile("strict");
+    if (program.stage == spv::ExecutionModelGLCompute)
+        return text::run_dispatch(program,
+                                  {.groups = of.groups,
+                                   .is_watched = true,
+                                   .most_branches = most_branches,
+                                   .subgroup_size = of.subgroup_size,
+                                   .is_reversed = is_reversed},
+                                  world.bindings, profile, findings);
+    text::run_stage(program, stage_run_of(of, program), world.bindings, profile, findings);
+    return false;
+}
+
+/// Groups that wait for earlier ones find what they wait for, since these run first: run the other way round, they do
+/// not.
+void find_waiting(const Examination& of, const text::Program& program, text::Findings& findings) {
+    text::Findings reversed;
+    run_watched(of, program, world_of(of, program), reversed, true);
+    for (const text::Finding& one : reversed.all())
+        if (one.rule == text::waiting_rule)
+            findings.add(one.rule, one.place, [&] { return one.what; });
+}
+
 } // namespace
 
 ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
@@ -367,16 +393,8 @@ ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
     if (gl != nullptr)
         before = watched.copy();
     text::Findings findings;
-    const Profile profile = named_profile("strict");
-    if (program.stage == spv::ExecutionModelGLCompute)
-        text::run_dispatch(program,
-                           {.groups = of.groups,
-                            .is_watched = true,
-                            .most_branches = most_branches,
-                            .subgroup_size = of.subgroup_size},
-                           watched.bindings, profile, findings);
-    else
-        text::run_stage(program, stage_run_of(of, program), watched.bindings, profile, findings);
+    if (run_watched(of, program, watched, findings) && std::ranges::none_of(findings.all(), text::is_endless))
+        find_waiting(of, program, findings);
     ExaminationResult result;
     if (before)
         result.gpu = compare_with_gpu(*gl, *source, program_of(source, ConstantExpressions::folded), of.groups, *before,

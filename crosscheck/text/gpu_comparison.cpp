@@ -187,7 +187,7 @@ GpuComparison compare_with_gpu(const MeasuredGl& gl, const ShaderSource& source,
                                const text::Findings& found) {
     constexpr std::size_t most_judged = 2000, most_lines = 3;
     GpuComparison made{.gl = gl.name, .not_run = {}, .unjudged_for = {}, .wrong = {}};
-    if (std::ranges::any_of(found.all(), [](const text::Finding& one) { return one.rule == text::endless_rule; })) {
+    if (std::ranges::any_of(found.all(), text::is_endless)) {
         made.not_run = "it does not end";
         return made;
     }

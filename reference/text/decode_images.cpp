@@ -23,7 +23,8 @@ void Decoder::image(const Variable& variable) {
     for (std::uint32_t i = 0; i < count; ++i) {
         p_.constants.push_back({first + i, static_cast<std::uint32_t>(p_.images.size()), false});
         p_.images.push_back({is_array ? fmt::format("{}[{}]", name, i) : name, !is_sampler && of.is_storage, of.shape,
-                             is_real(of.element), type(of.element).is_signed});
+                             is_real(of.element), type(of.element).is_signed, module_.ids[variable.id].is_coherent,
+                             binding(variable, i)});
     }
 }
 

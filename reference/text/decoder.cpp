@@ -210,6 +210,13 @@ std::uint32_t Decoder::bindings_of(const Variable& variable) const {
     return count;
 }
 
+std::optional<Binding> Decoder::binding(const Variable& variable, std::uint32_t element) const {
+    const IdInfo& about = module_.ids[variable.id];
+    if (!about.binding)
+        return std::nullopt;
+    return Binding{about.set.value_or(0), *about.binding, element};
+}
+
 void Decoder::block(const Variable& variable, bool is_storage) {
     const bool is_array = type(variable.type).kind == Type::Kind::array;
     const std::uint32_t block_type = is_array ? type(variable.type).element : variable.type;
@@ -217,13 +224,18 @@ void Decoder::block(const Variable& variable, bool is_storage) {
     if (of.kind != Type::Kind::structure)
         refuse(fmt::format("an array of arrays of blocks, {}, is not interpreted", module_.ids[variable.id].name));
     Block made{of.name, is_storage};
-    made.binding = module_.ids[variable.id].binding;
+    for (const Type::Member& member : of.members)
+        made.coherence.push_back(
+            {member.offset / word_bytes, member.is_coherent || module_.ids[variable.id].is_coherent});
     if (!of.members.empty())
         if (const Type& last = type(of.members.back().type); last.kind == Type::Kind::array && last.count == 0) {
             made.array_offset = of.members.back().offset;
             made.array_stride = last.stride;
             const Type::Member& member = of.members.back();
             lay(module_, last.element, 0, {member.matrix_stride, member.is_row_major}, made.element);
+            Block element;
+            block_members(last.element, 0, {member.matrix_stride, member.is_row_major}, member.name, element);
+            made.element_members = std::move(element.members);
         }
     lay(module_, block_type, 0, {}, made.leaves);
     block_members(block_type, 0, {}, module_.ids[variable.id].name.empty() ? "" : of.name, made);
@@ -233,6 +245,7 @@ void Decoder::block(const Variable& variable, bool is_storage) {
                              .is_blocks = is_array};
     for (std::uint32_t i = 0; i < (is_array ? bindings_of(variable) : 1); ++i) {
         p_.blocks.push_back(made);
+        p_.blocks.back().binding = binding(variable, i);
         if (is_array)
             p_.blocks.back().name += fmt::format("[{}]", i);
     }
@@ -445,6 +458,14 @@ std::size_t Block::words(std::size_t count) const {
     for (const Leaf& leaf : leaves)
         words = std::max<std::size_t>(words, leaf.word + 1U);
     return words;
+}
+
+bool Block::is_coherent(std::uint32_t word) const {
+    bool is = false;
+    for (const Coherence& one : coherence)
+        if (one.word <= word)
+            is = one.is_coherent;
+    return is;
 }
 
 namespace {

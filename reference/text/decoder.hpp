@@ -71,6 +71,7 @@ class Decoder {
     void set_constant(std::uint32_t first, const Constant& from, std::vector<CellWord>& to);
     void outside_variables();
     [[nodiscard]] std::uint32_t bindings_of(const Variable& variable) const;
+    [[nodiscard]] std::optional<Binding> binding(const Variable& variable, std::uint32_t element) const;
     void block(const Variable& variable, bool is_storage);
     void block_members(std::uint32_t type, std::uint32_t word, MatrixLayout layout, const std::string& name,
                        Block& to) const;

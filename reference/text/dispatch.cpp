@@ -96,7 +96,7 @@ Invocation invocation_of(const Program& program, const std::array<std::uint32_t,
     return {place_in(number / size, groups), local_place(program, number % size), number};
 }
 
-void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
+bool run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
                   Findings& findings) {
     const FlushSubnormals guard{profile.compute_flush_subnormals,
                                 profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
@@ -127,7 +127,8 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
     };
     const std::uint32_t groups = dispatch.groups[0] * dispatch.groups[1] * dispatch.groups[2];
     try {
-        for (std::uint32_t g = 0; g < groups; ++g) {
+        for (std::uint32_t k = 0; k < groups; ++k) {
+            const std::uint32_t g = dispatch.is_reversed ? groups - 1 - k : k;
             const std::array<std::uint32_t, 3> group = place_in(g, dispatch.groups);
             if (dispatch.wants && !dispatch.wants(group))
                 continue;
@@ -143,8 +144,7 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
     } catch (const DoesNotEnd& endless) {
         if (!dispatch.is_watched)
             throw;
-        findings.add(endless_rule, endless.place,
-                     [&] { return fmt::format("no end within {} branches", dispatch.most_branches); });
+        findings.add(endless.rule, endless.place, [&] { return endless.why; });
     }
     // What a race reads may be there or not: the race says it all.
     const std::vector<Finding> all = findings.all();
@@ -153,6 +153,7 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
                    return race.other && (race.place.line == one.place.line || race.other->line == one.place.line);
                });
     });
+    return races.has_handed_on();
 }
 
 } // namespace lockstep::text

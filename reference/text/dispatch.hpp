@@ -20,6 +20,7 @@ struct Dispatch {
     std::uint32_t subgroup_size =
         0;                      ///< that it runs with, at most lanes_at_once; 0: what the driver chooses is refused
     Writers* writers = nullptr; ///< is told who wrote each word; null: nobody asks
+    bool is_reversed = false;   ///< the last group runs first
 };
 
 /// An invocation by its number in a dispatch of so many groups.
@@ -29,7 +30,9 @@ Invocation invocation_of(const Program& program, const std::array<std::uint32_t,
 /// What blocks and images are bound to is read and written. A group whose invocations do not all come to one barrier
 /// ends there, which is a finding. Where an invocation does not end, a watched dispatch ends with a finding; another
 /// throws DoesNotEnd by FILE:LINE.
-void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
+///
+/// Returns whether a group has used what another handed on to it by an atomic operation; known where it is watched.
+bool run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
                   Findings& findings);
 
 } // namespace lockstep::text

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "reference/model/error.hpp"
@@ -26,11 +27,25 @@ struct Finding {
 };
 
 inline constexpr std::string_view endless_rule = "loop that does not end (GLSL 4.60, 6.4)";
+/// No invocation makes sure that another is started or goes on.
+inline constexpr std::string_view waiting_rule = "loop that waits for another invocation (GL 4.6, 7.13.1)";
 
-/// An invocation took more branches than it may.
+/// A finding behind which nothing runs.
+[[nodiscard]] inline bool is_endless(const Finding& one) {
+    return one.rule == endless_rule || one.rule == waiting_rule;
+}
+
+/// Two invocations touch what no order is between; the beginning of its rule.
+inline constexpr std::string_view race_rule = "race on ";
+[[nodiscard]] inline bool is_race(const Finding& one) { return one.rule.starts_with(race_rule); }
+
+/// An invocation stays in a loop, or took more branches than it may.
 struct DoesNotEnd : Error {
-    DoesNotEnd(const std::string& what, Place at) : Error(what), place(at) {}
+    DoesNotEnd(const std::string& what, std::string_view by, Place at, std::string because)
+        : Error(what), rule(by), place(at), why(std::move(because)) {}
+    std::string_view rule;
     Place place;
+    std::string why; ///< of a finding
 };
 
 /// Findings by rule and lines, in the order in which they were first made.

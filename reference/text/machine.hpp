@@ -86,6 +86,9 @@ template <class R, int W> class Machine {
     std::uint32_t subgroup_size = 0;
 
   private:
+    static constexpr std::uint32_t first_look = 4096; ///< branches, after which loops are looked at
+    /// Branches, after which values and operands are looked at no more, so that a loop without an end ends soon.
+    static constexpr std::uint32_t most_followed = 1'000'000;
     enum class State : std::uint8_t { running, waiting, ended };
 
     C* cell(std::uint32_t number) { return cells_.data() + std::size_t{number} * W; }
@@ -146,6 +149,9 @@ template <class R, int W> class Machine {
     void flow(const Step& s);
     void gather();
     void go_to(std::uint32_t step);
+    void look(std::uint32_t step);
+    [[nodiscard]] bool can_end_from(std::uint32_t step) const;
+    [[noreturn]] void end_loop(std::string_view rule, Place at, std::string why) const;
     template <class To> void go_each(const To& to);
     void take_from_blocks(const Step& s);
 
@@ -210,7 +216,7 @@ template <class R, int W> class Machine {
     std::uint32_t most_jumps_;
     std::vector<C> cells_;
     std::vector<Unset> unset_; ///< as cells_; empty: nobody looks
-    std::uint32_t lanes_ = 0, count_ = 0, at_ = 0, jumps_ = 0;
+    std::uint32_t lanes_ = 0, count_ = 0, at_ = 0, jumps_ = 0, looks_from_ = 0;
     bool together_ = true; ///< the lanes at this step are all that run or wait
     std::array<Lane, W> active_{};
     std::array<State, W> state_{};
@@ -236,6 +242,18 @@ template <class R, int W> class Machine {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> moves_; ///< cells and who made what is moved there
     std::vector<std::uint32_t> made_by_, moved_made_by_; ///< of a traced reading, the row of each cell and 1; 0: none
     std::span<const Site* const> sites_;
+    /// All that decides how a watched run goes on, at one of its jumps.
+    struct Seen {
+        std::uint32_t step = 0;
+        std::uint64_t changes = 0, reads = 0;
+        std::vector<Lane> active;
+        std::array<State, W> state{};
+        std::array<std::uint32_t, W> pc{}, from{}, depth{};
+        std::vector<std::uint32_t> returns;
+        std::vector<C> cells;
+    };
+    Seen seen_;
+    std::uint32_t seen_at_ = 0; ///< jumps_ then
 };
 
 template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> invocations) {
@@ -266,6 +284,7 @@ template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> 
     for (std::uint32_t l = 0; l < W; ++l)
         state_[l] = l < lanes_ ? State::running : State::ended;
     jumps_ = 0;
+    looks_from_ = is_watched() ? std::min(first_look, most_jumps_) : most_jumps_;
     vertices_.fill(0);
     is_discarded_.fill(0);
     for (std::uint32_t l = 0; l < W; ++l) {
@@ -300,6 +319,7 @@ template <class R, int W> void Machine<R, W>::run() {
     for (State& state : state_)
         if (state == State::waiting)
             state = State::running;
+    seen_.active.clear(); // at a barrier others go on
     gather();
     while (count_ > 0) {
         const Step& s = p_.steps[at_++];
@@ -307,7 +327,7 @@ template <class R, int W> void Machine<R, W>::run() {
             r.set_place(*sites_[at_ - 1], p_.precise[at_ - 1] != 0);
         else if constexpr (is_traced<R>)
             note_operands(s);
-        else if (is_watched()) {
+        else if (is_watched() && jumps_ <= most_followed) {
             follow(s);
             check(s);
         }

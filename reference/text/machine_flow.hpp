@@ -23,13 +23,85 @@ template <class R, int W> void Machine<R, W>::gather() {
     together_ = count_ == alive;
 }
 
-template <class R, int W> void Machine<R, W>::go_to(std::uint32_t step) {
-    if (++jumps_ > most_jumps_) {
-        const Place place{p_.lines[at_ - 1], invocations_[active_[0]].number};
-        throw DoesNotEnd(fmt::format("shader {}: invocation {} does not end within {} branches",
-                                     p_.line_name(place.line), place.invocation, most_jumps_),
-                         place);
+template <class R, int W> void Machine<R, W>::end_loop(std::string_view rule, Place at, std::string why) const {
+    const std::string what =
+        fmt::format("shader {}: invocation {} does not end: {}", p_.line_name(at.line), at.invocation, why);
+    throw DoesNotEnd(what, rule, at, std::move(why));
+}
+
+/// Whether some way on from a step ends the invocation, or returns.
+template <class R, int W> bool Machine<R, W>::can_end_from(std::uint32_t step) const {
+    std::vector<std::uint8_t> known(p_.steps.size());
+    std::vector<std::uint32_t> ways{step};
+    const auto constant = [&](std::uint32_t cell) { return std::ranges::find(p_.constants, cell, &CellWord::cell); };
+    while (!ways.empty()) {
+        std::uint32_t at = ways.back();
+        ways.pop_back();
+        for (bool goes_on = true; goes_on && at < p_.steps.size() && known[at] == 0; ++at) {
+            known[at] = 1;
+            const Step& s = p_.steps[at];
+            switch (s.op) {
+            case code::finish:
+            case code::discard:
+                return true;
+            case code::jump:
+                goes_on = false;
+                [[fallthrough]];
+            case code::call:
+                ways.push_back(s.a);
+                break;
+            case code::branch: {
+                const auto fixed = constant(s.a);
+                if (fixed == p_.constants.end() || fixed->word != 0)
+                    ways.push_back(s.b);
+                if (fixed == p_.constants.end() || fixed->word == 0)
+                    ways.push_back(s.c);
+                goes_on = false;
+                break;
+            }
+            case code::choose:
+                ways.push_back(s.b);
+                for (std::uint32_t k = 0; k < s.n; ++k)
+                    ways.push_back(p_.operands[s.d + 2 * k + 1]);
+                goes_on = false;
+                break;
+            default:
+                break;
+            }
+        }
     }
+    return false;
+}
+
+/// Ends a run that has come to a state for the second time, since it will again, or that has no way out of where it is.
+/// The state that is compared is another from time to time (Brent's algorithm).
+template <class R, int W> void Machine<R, W>::look(std::uint32_t step) {
+    const Place here{p_.lines[at_ - 1], invocations_[active_[0]].number};
+    if (jumps_ > most_jumps_)
+        end_loop(endless_rule, here, fmt::format("no end within {} branches", most_jumps_));
+    if constexpr (!runs_apart<R>) {
+        const std::span<const Lane> active(active_.data(), count_);
+        if (seen_.step == step && seen_.changes == memory_.changes() && std::ranges::equal(seen_.active, active) &&
+            seen_.pc == pc_ && seen_.from == from_ && seen_.depth == depth_ && seen_.state == state_ &&
+            seen_.returns == returns_ && std::ranges::equal(seen_.cells, cells_, {}, &C::w, &C::w)) {
+            if (seen_.reads != memory_.reads())
+                end_loop(waiting_rule, memory_.last_read(),
+                         "what it reads would have to be written by an invocation that need not run meanwhile");
+            end_loop(endless_rule, here, "it comes back to the same state");
+        }
+        if (jumps_ == looks_from_ + 1 || jumps_ >= 2 * seen_at_) {
+            if (depth_[active_[0]] == 0 && !can_end_from(step))
+                end_loop(endless_rule, here, "there is no way out of the loop");
+            seen_at_ = jumps_;
+            seen_ = {step,   memory_.changes(), memory_.reads(), {active.begin(), active.end()}, state_, pc_, from_,
+                     depth_, returns_,          cells_};
+        }
+    }
+}
+
+template <class R, int W> void Machine<R, W>::go_to(std::uint32_t step) {
+    if (++jumps_ > looks_from_)
+        look(step);
     if (together_) {
         at_ = step;
         return;

@@ -45,6 +45,10 @@ Memory::Memory(const Program& program, const Bindings& bindings, Findings& findi
         buffer_of_.push_back(static_cast<std::uint32_t>(
             std::ranges::find(bindings.blocks, words.data(), [](const auto& one) { return one.data(); }) -
             bindings.blocks.begin()));
+    for (const TexelMemory& image : bindings.images)
+        image_of_.push_back(static_cast<std::uint32_t>(
+            std::ranges::find(bindings.images, image.words.data(), [](const auto& one) { return one.words.data(); }) -
+            bindings.images.begin()));
 }
 
 std::uint32_t Memory::outside_block(std::uint32_t block, std::uint32_t word, Place by) {
@@ -77,9 +81,11 @@ std::uint32_t Memory::length(std::uint32_t block) const {
 
 void Memory::touch_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, Races::How how, Place by) {
     const TexelMemory& image = bindings_.images[number];
-    if (races_ != nullptr && program_.images[number].is_storage && is_inside(image, at))
-        races_->touch(Races::Space::image, number, static_cast<std::uint32_t>(first_word(image, at)), how, by,
-                      image.name);
+    if (races_ == nullptr || !program_.images[number].is_storage || !is_inside(image, at))
+        return;
+    note_read(how, by);
+    races_->touch(Races::Space::image, image_of_[number], static_cast<std::uint32_t>(first_word(image, at)), how, by,
+                  image.name, program_.images[number].is_coherent);
 }
 
 Memory::Texel Memory::texel_words(std::uint32_t number, const std::array<std::int32_t, 3>& at) const {
@@ -190,10 +196,10 @@ void Memory::put_texel(std::uint32_t number, const std::array<std::int32_t, 3>& 
     const std::size_t first = first_word(image, at);
     for (std::uint32_t c = 0; c < image.components; ++c) {
         const auto real = std::bit_cast<float>(texel[c]);
-        image.words[first + c] = image.code == TexelMemory::Code::unorm8 ? unorm8(real)
-                                 : image.code == TexelMemory::Code::half
-                                     ? std::bit_cast<std::uint32_t>(half_nearest(real))
-                                     : texel[c];
+        put(image.words[first + c], image.code == TexelMemory::Code::unorm8 ? unorm8(real)
+                                    : image.code == TexelMemory::Code::half
+                                        ? std::bit_cast<std::uint32_t>(half_nearest(real))
+                                        : texel[c]);
     }
 }
 
@@ -202,7 +208,7 @@ void Memory::store_texel(std::uint32_t number, const std::array<std::int32_t, 3>
     put_texel(number, at, texel);
     const TexelMemory& image = bindings_.images[number];
     if (writers_ != nullptr && is_inside(image, at))
-        std::fill_n(writers_->images[number].begin() + static_cast<std::ptrdiff_t>(first_word(image, at)),
+        std::fill_n(writers_->images[image_of_[number]].begin() + static_cast<std::ptrdiff_t>(first_word(image, at)),
                     image.components, by.invocation + 1);
 }
 

@@ -69,6 +69,11 @@ class Memory {
     [[nodiscard]] Findings& findings() { return findings_; }
     [[nodiscard]] Races* races() { return races_; }
     [[nodiscard]] bool notes_writers() const { return writers_ != nullptr; }
+    /// How many words have changed, and how many were read that others may write, the last of them where; counted
+    /// where races are looked for.
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }
+    [[nodiscard]] std::uint64_t reads() const { return reads_; }
+    [[nodiscard]] Place last_read() const { return last_read_; }
 
     /// A block's words, for who looks at what it touches by itself.
     [[nodiscard]] std::span<std::uint32_t> words(std::uint32_t block) const { return bindings_.blocks[block]; }
@@ -84,9 +89,9 @@ class Memory {
             outside_block(block, word, by);
             return;
         }
-        words[word] = value;
+        put(words[word], value);
         if (writers_ != nullptr)
-            writers_->blocks[block][word] = by.invocation + 1;
+            writers_->blocks[buffer_of_[block]][word] = by.invocation + 1;
     }
     [[nodiscard]] std::uint32_t load_shared(std::uint32_t word, Place by) {
         touch_shared(word, Races::How::read, by);
@@ -95,7 +100,7 @@ class Memory {
     void store_shared(std::uint32_t word, std::uint32_t value, Place by) {
         touch_shared(word, Races::How::write, by);
         if (word < shared_.size())
-            shared_[word] = value;
+            put(shared_[word], value);
         else
             outside_shared(by);
     }
@@ -124,13 +129,13 @@ class Memory {
         touch_block(block, word, Races::How::atomic, by);
         if (word >= words.size())
             return outside_block(block, word, by);
-        return std::exchange(words[word], change(words[word]));
+        return put(words[word], change(words[word]));
     }
     template <class Change> std::uint32_t atomic_shared(std::uint32_t word, Place by, const Change& change) {
         touch_shared(word, Races::How::atomic, by);
         if (word >= shared_.size())
             return outside_shared(by);
-        return std::exchange(shared_[word], change(shared_[word]));
+        return put(shared_[word], change(shared_[word]));
     }
     template <class Change> std::uint32_t atomic_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at,
                                                        Place by, const Change& change) {
@@ -143,14 +148,29 @@ class Memory {
     }
 
   private:
+    /// Returns what was there before.
+    std::uint32_t put(std::uint32_t& word, std::uint32_t value) {
+        changes_ += word != value ? 1 : 0;
+        return std::exchange(word, value);
+    }
+    void note_read(Races::How how, Place by) {
+        if (how == Races::How::write)
+            return;
+        ++reads_;
+        last_read_ = by;
+    }
     void touch_block(std::uint32_t block, std::uint32_t word, Races::How how, Place by) {
-        if (races_ != nullptr && program_.blocks[block].is_storage && word < bindings_.blocks[block].size() &&
-            !is_elsewhere(by))
-            races_->touch(Races::Space::buffer, buffer_of_[block], word, how, by, program_.blocks[block].name);
+        if (races_ == nullptr || !program_.blocks[block].is_storage || word >= bindings_.blocks[block].size() ||
+            is_elsewhere(by))
+            return;
+        note_read(how, by);
+        races_->touch(Races::Space::buffer, buffer_of_[block], word, how, by, program_.blocks[block].name,
+                      program_.blocks[block].is_coherent(word));
     }
     void touch_shared(std::uint32_t word, Races::How how, Place by) {
         if (races_ == nullptr || word >= unset_.size() || is_elsewhere(by))
             return;
+        note_read(how, by);
         races_->touch(Races::Space::shared, 0, word, how, by, program_.shared_at(word));
         if (how != Races::How::read)
             unset_[word] = 0;
@@ -172,9 +192,11 @@ class Memory {
     Races* races_;
     Writers* writers_;
     std::vector<std::uint32_t> shared_;
-    std::vector<std::uint8_t> unset_;           ///< of shared words
-    std::unordered_set<std::uint64_t> outside_; ///< lines and invocations of indexes out of bounds
-    std::vector<std::uint32_t> buffer_of_;      ///< of each block: the first that is bound to the same words
+    std::vector<std::uint8_t> unset_;                 ///< of shared words
+    std::unordered_set<std::uint64_t> outside_;       ///< lines and invocations of indexes out of bounds
+    std::vector<std::uint32_t> buffer_of_, image_of_; ///< of each block and image: the first of the same words
+    std::uint64_t changes_ = 0, reads_ = 0;
+    Place last_read_;
 };
 
 } // namespace lockstep::text

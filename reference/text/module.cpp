@@ -140,6 +140,8 @@ class ModuleReader {
                 of.location = w[3];
             else if (w[2] == spv::DecorationFlat)
                 of.is_flat = true;
+            else if (w[2] == spv::DecorationCoherent || w[2] == spv::DecorationVolatile)
+                of.is_coherent = true;
             break;
         }
         default:
@@ -168,6 +170,13 @@ class ModuleReader {
             break;
         case spv::DecorationBinding:
             id.binding = w[2];
+            break;
+        case spv::DecorationDescriptorSet:
+            id.set = w[2];
+            break;
+        case spv::DecorationCoherent:
+        case spv::DecorationVolatile: // it is coherent, too (GLSL 4.60, 4.10)
+            id.is_coherent = true;
             break;
         case spv::DecorationArrayStride:
             made_.types[w[0]].stride = w[2];

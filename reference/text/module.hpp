@@ -49,7 +49,7 @@ struct Type {
     };
     struct Member {
         std::uint32_t type = 0, offset = 0, matrix_stride = 0; ///< bytes
-        bool is_row_major = false, is_flat = false;
+        bool is_row_major = false, is_flat = false, is_coherent = false;
         std::optional<spv::BuiltIn> builtin = {};
         std::optional<std::uint32_t> location = {};
         std::string name = {};
@@ -74,9 +74,9 @@ struct IdInfo {
     std::uint32_t type = 0;
     std::optional<spv::BuiltIn> builtin;
     std::optional<std::uint32_t> location;
-    std::optional<std::uint32_t> binding;
+    std::optional<std::uint32_t> binding, set;
     bool is_precise = false; ///< NoContraction
-    bool is_block = false, is_buffer_block = false, is_flat = false;
+    bool is_block = false, is_buffer_block = false, is_flat = false, is_coherent = false;
 };
 
 /// A value known before the shader runs.

@@ -76,6 +76,13 @@ struct Leaf {
     bool is_real = false;
 };
 
+/// Where the text binds a block or an image. The elements of an array of them are told apart: by modules GL, which
+/// gives each a number of its own, and Vulkan, which gives them one, are alike.
+struct Binding {
+    std::uint32_t set = 0, number = 0, element = 0;
+    bool operator==(const Binding&) const = default;
+};
+
 /// A storage or uniform block, push constants, or an atomic counter.
 struct Block {
     /// By its name in GL, as plain uniforms have it.
@@ -89,10 +96,18 @@ struct Block {
     std::uint32_t array_offset = 0, array_stride = 0;
     std::vector<Leaf> leaves = {}, element = {}; ///< scalars before that array, and of one of its elements
     std::vector<Member> members = {};            ///< before that array
-    std::optional<std::uint32_t> binding = {};   ///< that the text gives it
+    std::vector<Member> element_members = {};    ///< of one of its elements
+    std::optional<Binding> binding = {};         ///< that the text gives it
+    /// First words of members that are not `coherent` or `volatile`, and of those that are, in their order.
+    struct Coherence {
+        std::uint32_t word = 0;
+        bool is_coherent = false;
+    };
+    std::vector<Coherence> coherence = {};
 
     /// Words of the block whose array has `count` elements.
     [[nodiscard]] std::size_t words(std::size_t count) const;
+    [[nodiscard]] bool is_coherent(std::uint32_t word) const;
 };
 
 /// A plain uniform, or a member of one, by its name in GL: light.colour, weights[0].
@@ -109,6 +124,8 @@ struct ImageUniform {
     ImageShape shape;
     bool is_real = true; ///< components are floats
     bool is_signed = false;
+    bool is_coherent = false;
+    std::optional<Binding> binding = {}; ///< that the text gives it
 };
 
 /// An input or output of a vertex, geometry or fragment stage: a variable, or a member of a block or structure.

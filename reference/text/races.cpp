@@ -13,6 +13,8 @@ constexpr std::array<std::string_view, 3> rules{"race on shared memory (GLSL 4.6
                                                 "race on a buffer (GL 4.6, 7.13.1)",
                                                 "race on an image (GL 4.6, 7.13.1)"};
 
+constexpr std::string_view coherence_rule = "memory that groups hand on without `coherent` (GLSL 4.60, 4.10)";
+
 std::string_view verb(Races::How how) {
     return how == Races::How::read ? "reads" : how == Races::How::write ? "writes" : "changes by an atomic operation";
 }
@@ -93,13 +95,31 @@ void Races::add(Touches& in, Space space, How how, const Touch& touch, std::stri
                                                               : nullptr;
     if (before != nullptr)
         found(*before, space, how, touch.place, name, in_group);
+    else if (!in_group && how != How::write && in.write.by != nobody && in.write.by != touch.by)
+        check_coherence(in.write, how, touch, name);
     if (how == How::write)
         in.write = touch;
     else
         note(how == How::read ? in.reads : in.atomics, touch, s, in_group);
 }
 
-void Races::touch(Space space, std::uint32_t number, std::uint32_t word, How how, Place place, std::string_view name) {
+/// A write that is not coherent may stay where its own invocation alone sees it, and a read may find what was there
+/// before; atomic operations go to the memory itself.
+void Races::check_coherence(const Touch& before, How how, const Touch& touch, std::string_view name) {
+    has_handed_on_ = true;
+    if (before.is_coherent && (how == How::atomic || touch.is_coherent))
+        return;
+    findings_.add(
+        coherence_rule, touch.place,
+        [&] {
+            return fmt::format("invocation {} {} what invocation {} wrote in another group: {}", touch.place.invocation,
+                               verb(how), before.place.invocation, name);
+        },
+        before.place);
+}
+
+void Races::touch(Space space, std::uint32_t number, std::uint32_t word, How how, Place place, std::string_view name,
+                  bool is_coherent) {
     const auto s = static_cast<std::size_t>(space);
     const std::uint64_t key = std::uint64_t{s} << 60U | std::uint64_t{number} << 32U | word;
     Word& at = words_[key];
@@ -107,7 +127,8 @@ void Races::touch(Space space, std::uint32_t number, std::uint32_t word, How how
         at.in_group = {};
         at.in_group.group = group_;
     }
-    Touch touch{place, place.invocation, has_groups() ? fences_[local(place.invocation)][s] : 0, epochs_[s]};
+    Touch touch{place, place.invocation, has_groups() ? fences_[local(place.invocation)][s] : 0, epochs_[s],
+                is_coherent};
     add(at.in_group, space, how, touch, name, true);
     if (space != Space::shared) {
         touch.by = group_;

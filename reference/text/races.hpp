@@ -27,8 +27,11 @@ class Races {
     /// barrier.
     void barrier(std::uint32_t semantics);
     void fence(std::uint32_t semantics, std::uint32_t invocation);
-    /// `name`, `number`: of the buffer or image; `word`: of it, or of its texels.
-    void touch(Space space, std::uint32_t number, std::uint32_t word, How how, Place place, std::string_view name);
+    /// `name`, `number`: of the buffer or image; `word`: of it, or of its texels; `is_coherent`: by its declaration.
+    void touch(Space space, std::uint32_t number, std::uint32_t word, How how, Place place, std::string_view name,
+               bool is_coherent = true);
+    /// Whether a group has read or changed what another handed on to it by an atomic operation.
+    [[nodiscard]] bool has_handed_on() const { return has_handed_on_; }
 
   private:
     static constexpr std::uint32_t nobody = 0xffffffffU;
@@ -38,6 +41,7 @@ class Races {
         std::uint32_t by = nobody; ///< an invocation, or a group
         /// How many memory barriers the invocation had had, and how many times all of the group's was ordered.
         std::uint32_t fences = 0, epoch = 0;
+        bool is_coherent = true;
     };
     /// As many as decide whether a later one races: two different ones may both be no race with it alone.
     struct Touches {
@@ -69,15 +73,18 @@ class Races {
     void note(std::array<Touch, 2>& slots, const Touch& touch, std::size_t space, bool in_group) const;
     /// `in`: of the group, or of the dispatch. Reports a race with what is there, and adds the touch.
     void add(Touches& in, Space space, How how, const Touch& touch, std::string_view name, bool in_group);
+    /// Reports that what another group handed on need not be seen, where `before` or `touch` is not coherent.
+    void check_coherence(const Touch& before, How how, const Touch& touch, std::string_view name);
     void synchronize(std::uint64_t word, std::uint32_t invocation);
     void found(const Touch& before, Space space, How how, Place place, std::string_view name, bool in_group);
 
     Findings& findings_;
     std::unordered_map<std::uint64_t, Word> words_;
     std::uint32_t group_ = 0, barriers_ = 0;
-    BySpace epochs_{};                        ///< how many times all before was ordered
-    std::array<bool, 3> is_fenced_{};         ///< since the last barrier
-    bool has_fences_ = false;                 ///< the group that runs
+    BySpace epochs_{};                ///< how many times all before was ordered
+    std::array<bool, 3> is_fenced_{}; ///< since the last barrier
+    bool has_fences_ = false;         ///< the group that runs
+    bool has_handed_on_ = false;
     std::vector<BySpace> fences_, published_; ///< of each invocation of the group: so far, and at the last barrier
     std::unordered_map<std::uint64_t, Released> released_; ///< by word
     std::vector<Acquired> acquired_;                       ///< by the group

@@ -162,8 +162,7 @@ StageResult run_stage(const Program& program, const StageRun& run, const Binding
         } catch (const DoesNotEnd& endless) {
             if (!run.is_watched)
                 throw;
-            findings.add(endless_rule, endless.place,
-                         [&] { return fmt::format("no end within {} branches", run.most_branches); });
+            findings.add(endless.rule, endless.place, [&] { return endless.why; });
             break;
         }
         for (std::uint32_t l = 0; run.keeps_outputs && l < invocations.size(); ++l)

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ Lines found_in(const std::string& statements, const std::string& declarations = 
                      statements + "\n}\n",
                  {.groups = {1, 1, 1}, .sizes = {{"Out", {8}}}});
 }
+
+const std::string of_eight = "layout(local_size_x = 8) in;\n";
 
 } // namespace
 
@@ -99,4 +102,85 @@ TEST_CASE("examine: constants are constants still where the text needs some") {
     const std::string open = with_open_constants(text, false, {}).value_or("");
     CHECK(std::count(open.begin(), open.end(), '\n') == std::count(text.begin(), text.end(), '\n'));
     CHECK_THAT(open, Contains("const int n = 1 /     0, m = 7; ") && Contains("1 << lockstep_given(40)"));
+}
+
+TEST_CASE("examine: what groups hand on by an atomic operation has to be coherent") {
+    const auto text = [&](const std::string& writing, const std::string& reading) {
+        return of_eight + "layout(binding = 0) " + writing + "buffer A { float parts[]; };\nlayout(binding = 0) " +
+               reading +
+               "buffer B { float sums[]; };\n"
+               "layout(binding = 1) buffer Count { uint done; };\nlayout(binding = 2) buffer Out { float total; };\n"
+               "shared bool is_last;\n"
+               "void main() {\n"
+               "if (gl_LocalInvocationIndex == 0u) {\n"
+               "parts[gl_WorkGroupID.x] = 1.0;\n"
+               "memoryBarrierBuffer();\n"
+               "is_last = atomicAdd(done, 1u) + 1u == gl_NumWorkGroups.x; }\n"
+               "barrier();\n"
+               "if (is_last && gl_LocalInvocationIndex == 0u)\n"
+               "for (uint g = 0u; g < gl_NumWorkGroups.x; ++g)\n"
+               "total += sums[g]; }\n";
+    };
+    const Lines missing{"15 9 memory that groups hand on without `coherent`"};
+    CHECK(found(text("coherent ", "coherent ")).empty());
+    CHECK(found(text("volatile ", "coherent ")).empty());
+    CHECK(found(text("", "coherent ")) == missing);
+    CHECK(found(text("coherent ", "")) == missing);
+    CHECK(found(text("", "")) == missing);
+    // Of one group, and of atomic operations alone, nothing is said.
+    CHECK(found(text("", ""), {.groups = {1, 1, 1}}).empty());
+    CHECK(found(of_eight +
+                "buffer Count { uint n; };\nvoid main() { atomicAdd(n, 1u); memoryBarrier(); atomicMax(n, 2u); }\n")
+              .empty());
+}
+
+TEST_CASE("examine: a loop that waits for another invocation, and one that does not end, are found at once") {
+    const auto begun = std::chrono::steady_clock::now();
+    const std::string lock = of_eight + "coherent buffer Lock { uint lock; };\ncoherent buffer Out { float x[]; };\n";
+    const std::string waits = "loop that waits for another invocation", endless = "loop that does not end";
+    CHECK(found(lock + "void main() {\n"
+                       "while (atomicCompSwap(lock, 0u, 1u) != 0u);\n"
+                       "x[0] += 1.0; memoryBarrierBuffer(); atomicExchange(lock, 0u); }\n") == Lines{"5 " + waits});
+    CHECK(found("layout(local_size_x = 1) in;\ncoherent buffer Flags { uint ready[]; };\nvoid main() { uint g = "
+                "gl_WorkGroupID.x;\n"
+                "while (g < 3u && atomicAdd(ready[g + 1u], 0u) == 0u) {}\n"
+                "atomicExchange(ready[g], 1u); }\n") == Lines{"4 " + waits});
+    // Earlier groups run first here; none has to.
+    const std::string handed = "layout(local_size_x = 1) in;\ncoherent buffer Flags { uint ready[]; };\n"
+                               "coherent buffer Out { float x[]; };\nvoid main() { uint g = gl_WorkGroupID.x;\n";
+    CHECK(found(handed + "if (g > 0u) while (atomicAdd(ready[g - 1u], 0u) == 0u);\n"
+                         "x[g + 1u] = x[g] + 1.0; memoryBarrierBuffer();\n"
+                         "atomicExchange(ready[g], 1u); }\n",
+                {.sizes = {{"Out", {8}}}}) == Lines{"5 " + waits});
+    CHECK(found(handed +
+                    "if (g > 0u && atomicAdd(ready[g - 1u], 0u) == 1u) x[g + 1u] = x[g] + 1.0; else x[g + 1u] = 1.0;\n"
+                    "memoryBarrierBuffer(); atomicExchange(ready[g], 1u); }\n",
+                {.sizes = {{"Out", {8}}}})
+              .empty());
+    CHECK(found_in("while (true) { }") == Lines{"4 " + endless});
+    CHECK(found_in("int i = 0;\nfor (;;) ++i;") == Lines{"5 " + endless});
+    CHECK(found_in("int i = 0;\nwhile (i < 3) { if (x[0] > 4.0) ++i; }").front().ends_with(waits));
+    CHECK(found_in("int i = 0;\nwhile (i < 3) { if (n > 4) ++i; }", "uniform int n;") == Lines{"5 " + endless});
+    CHECK(std::chrono::steady_clock::now() - begun < std::chrono::seconds(60));
+    // Long loops end.
+    CHECK(
+        found_in("int n = 0;\nfor (int i = 0; i < 20000; ++i) if (x[i % 7] > 2.0) ++n;\nx[0] = float(n);", "").empty());
+    CHECK(found(of_eight + "shared uint n;\nvoid main() { uint i = gl_LocalInvocationIndex; if (i == 0u) n = 0u;\n"
+                           "barrier();\nuint k = 0u;\nfor (;;) { barrier(); if (n == 1u) break; barrier();\n"
+                           "if (i == 7u && ++k == 6000u) n = 1u; } }\n",
+                {.groups = {1, 1, 1}})
+              .empty());
+    CHECK(found(lock + "void main() {\n"
+                       "for (bool done = false; !done;) if (atomicCompSwap(lock, 0u, 1u) == 0u) {\n"
+                       "x[0] += 1.0; memoryBarrierBuffer(); atomicExchange(lock, 0u); done = true; } }\n")
+              .empty());
+}
+
+TEST_CASE("examine: an atomic operation outside of an image gives 0 and leaves it as it is") {
+    CHECK(found(of_eight +
+                "layout(r32ui) uniform uimage2D a;\nbuffer Out { float x[]; };\n"
+                "void main() { uint i = gl_GlobalInvocationID.x; imageAtomicExchange(a, ivec2(i, 0), 5u);\n"
+                "uint outside = imageAtomicAdd(a, ivec2(i, -1), 7u) + imageAtomicMax(a, ivec2(1000, 0), 7u);\n"
+                "x[i] = sqrt(outside == 0u ? 1.0 : -1.0) + float(imageAtomicAdd(a, ivec2(i, 0), 0u)); }\n")
+              .empty());
 }

@@ -480,6 +480,6 @@ TEST_CASE("text: what is not interpreted is refused by name and line") {
                        "void main() {\n    x[0] = subgroupAdd(x[0]);\n}\n"),
                Contains("kernel.comp:5: the size of subgroups is the driver's"));
     CHECK_THAT(refusal(head + "void main() {\n    while (x[0] == 0.0)\n        x[1] += 1.0;\n}\n"),
-               Contains("does not end within"));
+               Contains("does not end: no end within"));
     CHECK_THAT(refusal(head + "void main() {\n    x[0] = undeclared;\n}\n"), Contains("kernel.comp:4: "));
 }

@@ -29,7 +29,7 @@ struct ExamineRequest {
     std::optional<std::string> groups;
     std::string gl;
     std::optional<std::size_t> invocations;
-    std::vector<std::string> uniforms, inputs, sizes, defines;
+    std::vector<std::string> uniforms, inputs, sizes, fills, defines;
     std::size_t seed = 1, subgroup_size = text::lanes_at_once;
     bool quiet = false;
 };
@@ -100,6 +100,8 @@ int run_examine(const ExamineRequest& options) {
         if ((of.sizes[name] = numbers_in(value)).empty())
             throw Error(fmt::format("--size {}: expected NAME=NUMBER, or NAME=64,64", plain_line(one)));
     }
+    for (const std::string& one : options.fills)
+        of.fills.insert(parts_of("--fill", one));
     for (const std::string& one : options.defines)
         of.defines.push_back(macro_of("--define", one));
     of.seed = static_cast<std::uint32_t>(options.seed);
@@ -150,6 +152,10 @@ Verb examine_command() {
     verb.add(settings_option("--size", "NAME=N", options->sizes,
                              "elements of the array at the end of a block, or texels along each axis of an image: "
                              "Particles=100, u_Source=64,64; as many as invocations without"));
+    verb.add(settings_option("--fill", "NAME=iota|zero|VALUE", options->fills,
+                             "the numbers of a block, of its member NAME.member or of an image: 0, 1, 2, ..., or one "
+                             "for all: Indices=iota, Particles.p.mass=1; without, floats look random and integers are "
+                             "0"));
     verb.add(settings_option("--define", "NAME=TEXT", options->defines, "a macro that the shader is compiled with"));
     verb.add(otherwise(integer_option("--seed", "N", IntegerRange{0, 1'000'000}, options->seed,
                                       "which random numbers blocks and images hold"),

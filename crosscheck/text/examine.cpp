@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -107,6 +108,7 @@ std::vector<std::uint32_t> block_words(const Examination& of, const text::Block&
         fill(0, block.leaves);
     for (std::size_t i = 0; block.array_stride > 0 && i < count; ++i)
         fill((block.array_offset + i * block.array_stride) / text::word_bytes, block.element);
+    fill_block(of.fills, block, count, words);
     for (const text::Block::Member& member : block.members)
         if (const auto given = of.uniforms.find(member.name); given != of.uniforms.end()) {
             const std::vector<std::uint32_t> numbers = words_of("--uniform", member.name, member.leaves.size(),
@@ -155,6 +157,37 @@ void share_buffers(const std::vector<text::Block>& blocks, std::vector<std::span
                 longest = own[b];
         words[a] = longest;
     }
+}
+
+/// Images to which the text gives one unit are one image (GL 4.6, 8.26). Throws Error where their kinds, sizes or
+/// formats differ, since GL then defines nothing; one that is only stored to need not have a format.
+void share_images(const std::vector<text::ImageUniform>& images, std::vector<text::TexelMemory>& memory) {
+    const auto kind = [&](std::size_t i) {
+        const text::ImageShape& shape = images[i].shape;
+        return std::tuple(shape.dimensions, shape.is_arrayed, shape.has_samples, images[i].is_real, images[i].is_signed,
+                          memory[i].size);
+    };
+    const auto has_format = [&](std::size_t i) { return images[i].shape.format != spv::ImageFormatUnknown; };
+    const auto take = [&](std::size_t to, std::size_t from) {
+        memory[to].words = memory[from].words;
+        memory[to].components = memory[from].components;
+        memory[to].code = memory[from].code;
+    };
+    for (std::size_t a = 0; a < images.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            if (!images[a].is_storage || !images[b].is_storage || !images[a].binding ||
+                images[a].binding != images[b].binding)
+                continue;
+            if (kind(a) != kind(b) ||
+                (has_format(a) && has_format(b) && images[a].shape.format != images[b].shape.format))
+                throw Error(
+                    fmt::format("images {} and {} are on one unit, {}; expected one type, one size and one format",
+                                images[b].name, images[a].name, images[a].binding->number));
+            if (has_format(b))
+                take(a, b);
+            else
+                take(b, a);
+        }
 }
 
 /// Some seconds.
@@ -239,8 +272,10 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
         for (std::uint32_t& word : all)
             word = image.is_real ? code_of(made_up.word(), format.code) : 0U;
         texels.words = all;
+        fill_image(of.fills, image, texels);
         world.bindings.images.push_back(texels);
     }
+    share_images(program.images, world.bindings.images);
     for (const text::PlainUniform& uniform : program.uniforms) {
         const auto given = of.uniforms.find(uniform.name);
         world.bindings.uniforms.push_back(
@@ -376,6 +411,34 @@ void find_waiting(const Examination& of, const text::Program& program, text::Fin
             findings.add(one.rule, one.place, [&] { return one.what; });
 }
 
+/// Names by which a race would not be: integers that are 0, since they are not given, are often indexes.
+std::map<std::string, std::vector<const text::Finding*>>
+made_up_races(const Examination& of, const text::Program& program, const text::Findings& findings) {
+    constexpr std::size_t most_tried = 4, most_invocations = 65'536;
+    std::map<std::string, std::vector<const text::Finding*>> all;
+    std::vector<std::string> names = index_names(program);
+    std::erase_if(names, [&](const std::string& name) {
+        return of.fills.contains(name) || of.fills.contains(name.substr(0, name.find('.'))) ||
+               of.uniforms.contains(name);
+    });
+    const std::array<std::uint32_t, 3> extent = extent_of(of, program);
+    if (std::ranges::none_of(findings.all(), text::is_race) || std::ranges::any_of(findings.all(), text::is_endless) ||
+        names.size() > most_tried || std::size_t{extent[0]} * extent[1] * extent[2] > most_invocations)
+        return all;
+    for (const std::string& name : names) {
+        Examination other = of;
+        other.fills[name] = "iota";
+        text::Findings found;
+        run_watched(other, program, world_of(other, program), found);
+        for (const text::Finding& one : findings.all())
+            if (text::is_race(one) && std::ranges::none_of(found.all(), [&](const text::Finding& again) {
+                    return again.rule == one.rule && again.place.line == one.place.line;
+                }))
+                all[name].push_back(&one);
+    }
+    return all;
+}
+
 } // namespace
 
 ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
@@ -387,6 +450,7 @@ ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
     for (const std::string& name : names_of(program.images))
         sized.push_back(name);
     check_names("--size", of.sizes, sized);
+    check_names("--fill", of.fills, fill_names(program));
     check_invocations(of, program);
     const MadeUpWorld watched = world_of(of, program);
     std::optional<MadeUpWorld> before; // for the driver, which starts from the same
@@ -403,9 +467,17 @@ ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
     if (program.stage == spv::ExecutionModelGLCompute)
         result.group_size = program.invocations();
     result.not_given = not_given(of, program);
-    for (const text::Finding& found : findings.all())
-        result.findings.push_back({found, program.line_name(found.place.line),
-                                   found.other ? program.line_name(found.other->line) : std::string()});
+    const auto made_up = made_up_races(of, program, findings);
+    for (const text::Finding& found : findings.all()) {
+        NamedFinding& one = result.findings.emplace_back(
+            NamedFinding{found, program.line_name(found.place.line),
+                         found.other ? program.line_name(found.other->line) : std::string()});
+        for (const auto& [name, races] : made_up)
+            if (std::ranges::find(races, &found) != races.end()) {
+                one.found.what += fmt::format(" (not with --fill {}=iota)", name);
+                break;
+            }
+    }
     return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/text/fills.hpp"
 #include "crosscheck/text/gpu_comparison.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/text/findings.hpp"
@@ -28,6 +29,7 @@ struct Examination {
     std::map<std::string, std::vector<std::string>> uniforms = {};
     /// Elements of the array at a block's end, by the block's name; texels along each axis of an image.
     std::map<std::string, std::vector<std::uint32_t>> sizes = {};
+    Fills fills = {};
     std::uint32_t seed = 1;
     std::uint32_t subgroup_size = text::lanes_at_once; ///< at most so many
 };

@@ -33,6 +33,10 @@ Schema images_of(const text::Program& program, const text::Bindings& bindings) {
         if (format.empty())
             throw Error(fmt::format("{}: an image of its format is not given to GL", image.name));
         const text::TexelMemory& texels = bindings.images[i];
+        for (std::size_t k = 0; k < i; ++k)
+            if (bindings.images[k].words.data() == texels.words.data())
+                throw Error(fmt::format("{} and {}: two images of one unit are not given to GL", program.images[k].name,
+                                        image.name));
         const Scalar scalar = texels.code == text::TexelMemory::Code::unorm8 ? Scalar::uint32
                               : image.is_real                                ? Scalar::float32
                               : image.is_signed                              ? Scalar::int32

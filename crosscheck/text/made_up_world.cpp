@@ -11,12 +11,18 @@ std::size_t MadeUpWorld::words_of_block(std::size_t block) const {
     return static_cast<std::size_t>(found - words.begin());
 }
 
+std::size_t MadeUpWorld::words_of_image(std::size_t image) const {
+    const auto found =
+        std::ranges::find(words, bindings.images[image].words.data(), [](const auto& one) { return one.data(); });
+    return static_cast<std::size_t>(found - words.begin());
+}
+
 MadeUpWorld MadeUpWorld::copy() const {
     MadeUpWorld made{words, bindings};
     for (std::size_t b = 0; b < bindings.blocks.size(); ++b)
         made.bindings.blocks[b] = std::span(made.words[words_of_block(b)]).first(bindings.blocks[b].size());
     for (std::size_t i = 0; i < bindings.images.size(); ++i)
-        made.bindings.images[i].words = made.words[bindings.blocks.size() + i];
+        made.bindings.images[i].words = made.words[words_of_image(i)];
     return made;
 }
 

@@ -10,11 +10,12 @@ namespace lockstep {
 /// What a program's names are bound to in a run of it by itself.
 struct MadeUpWorld {
     std::vector<std::vector<std::uint32_t>> words; ///< of its blocks, then of its images
-    text::Bindings bindings;                       ///< refer to them; several blocks may have one's words
+    text::Bindings bindings;                       ///< refer to them; several may have one's words
 
     [[nodiscard]] MadeUpWorld copy() const;
-    /// Whose words a block has.
+    /// Whose words a block or an image has.
     [[nodiscard]] std::size_t words_of_block(std::size_t block) const;
+    [[nodiscard]] std::size_t words_of_image(std::size_t image) const;
 };
 
 /// How the texels of an image lie in words.

@@ -106,6 +106,11 @@ TEST_CASE("examine: what it cannot run is refused in one line") {
     CHECK_THAT(refused({"--uniform", "u_Keep=1"}, shader),
                Contains("--uniform u_Keep: the shader has no such name") && Contains("u_Kept"));
     CHECK_THAT(refused({"--uniform", "u_Kept=1,2"}, shader), Contains("expected 1 numbers, got 2"));
+    CHECK_THAT(refused({"--fill", "Number=iota"}, shader),
+               Contains("--fill Number: the shader has no such name; it has Numbers, Numbers.x"));
+    CHECK_THAT(refused({"--fill", "Numbers=many"}, shader),
+               Contains("--fill Numbers: expected iota, zero or a number"));
+    CHECK_THAT(refused({"--fill", "Numbers"}, shader), Contains("--fill Numbers: expected NAME=VALUE"));
     CHECK_THAT(refused({"--groups", "0"}, shader), Contains("--groups 0: expected one to three numbers from 1"));
     CHECK_THAT(refused({"--size", "Number=4"}, shader), Contains("--size Number: the shader has no such name"));
     CHECK_THAT(refused({}, (folder.path() / "missing.comp").string()), Contains("no such file"));

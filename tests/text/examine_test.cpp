@@ -7,6 +7,7 @@
 
 #include "crosscheck/text/examine.hpp"
 #include "crosscheck/text/open_constants.hpp"
+#include "reference/model/error.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
@@ -104,6 +105,37 @@ TEST_CASE("examine: constants are constants still where the text needs some") {
     CHECK_THAT(open, Contains("const int n = 1 /     0, m = 7; ") && Contains("1 << lockstep_given(40)"));
 }
 
+TEST_CASE("examine: two images of one unit are one image, and are refused where they are of two formats") {
+    const auto text = [&](const std::string& second) {
+        return of_eight + "layout(binding = 1, r32f) uniform image2D a;\nlayout(" + second +
+               (second.back() == 'y' ? "" : ")") +
+               " uniform image2D b;\n"
+               "void main() { ivec2 at = ivec2(gl_LocalInvocationIndex, 0);\n"
+               "imageStore(a, at, vec4(1.0));\n"
+               "imageStore(b, ivec2(7 - at.x, 0), vec4(2.0)); }\n";
+    };
+    const Examination one{.groups = {1, 1, 1}};
+    CHECK(found(text("binding = 1, r32f"), one) == Lines{"6 5 race on an image"});
+    CHECK(found(text("binding = 2, r32f"), one).empty());
+    CHECK(found(text("binding = 1) writeonly"), one) == Lines{"6 5 race on an image"});
+    CHECK_THROWS_WITH(examined(text("binding = 1, rgba32f"), one),
+                      Contains("images a and b are on one unit, 1; expected one type, one size and one format"));
+    // What one writes the other reads.
+    CHECK(found(of_eight +
+                    "layout(binding = 1, r32f) uniform image2D a;\nlayout(binding = 1, r32f) uniform image2D b;\n"
+                    "buffer Out { float x[]; };\n"
+                    "void main() { ivec2 at = ivec2(gl_LocalInvocationIndex, 0);\n"
+                    "imageStore(a, at, vec4(-1.0));\n"
+                    "x[at.x] = sqrt(imageLoad(b, at).x); }\n",
+                one) == Lines{"7 sqrt of a negative number"});
+    // Elements of one array are not.
+    CHECK(found(of_eight + "layout(binding = 1) buffer B { float x[]; } b[2];\n"
+                           "void main() { uint i = gl_LocalInvocationIndex;\n"
+                           "b[0].x[i] = 1.0;\nb[1].x[7u - i] = 2.0; }\n",
+                one)
+              .empty());
+}
+
 TEST_CASE("examine: what groups hand on by an atomic operation has to be coherent") {
     const auto text = [&](const std::string& writing, const std::string& reading) {
         return of_eight + "layout(binding = 0) " + writing + "buffer A { float parts[]; };\nlayout(binding = 0) " +
@@ -174,6 +206,47 @@ TEST_CASE("examine: a loop that waits for another invocation, and one that does 
                        "for (bool done = false; !done;) if (atomicCompSwap(lock, 0u, 1u) == 0u) {\n"
                        "x[0] += 1.0; memoryBarrierBuffer(); atomicExchange(lock, 0u); done = true; } }\n")
               .empty());
+}
+
+TEST_CASE("examine: blocks, members and images hold what --fill says, and a race that it ends names it") {
+    const std::string text = of_eight + "buffer Indices { uint skipped; uint at[]; };\nbuffer Out { float x[]; };\n"
+                                        "void main() { uint i = gl_GlobalInvocationID.x;\n"
+                                        "x[at[i]] = 1.0; }\n";
+    const auto with = [&](const std::string& name, const std::string& value) {
+        return Examination{.groups = {1, 1, 1}, .fills = {{name, value}}};
+    };
+    CHECK(found(text) == Lines{"5 5 race on a buffer"});
+    const ExaminationResult race = examined(text);
+    CHECK_THAT(race.findings.front().found.what, Contains("(not with --fill Indices.at=iota)"));
+    CHECK(found(text, with("Indices", "iota")).empty());
+    CHECK(found(text, with("Indices.at", "iota")).empty());
+    CHECK(found(text, with("Indices.at", "zero")) == Lines{"5 5 race on a buffer"});
+    CHECK(found(text, with("Indices.skipped", "iota")) == Lines{"5 5 race on a buffer"});
+    CHECK_THAT(found(text, with("Indices.at", "1000")).front(), Contains("access outside of a buffer"));
+    CHECK_THROWS_WITH(
+        examined(text, with("Index", "iota")),
+        Contains("--fill Index: the shader has no such name; it has Out, Out.x, Indices, Indices.skipped, Indices.at"));
+    CHECK_THROWS_WITH(examined(text, with("Indices.at", "many")),
+                      Contains("--fill Indices.at: expected iota, zero or a number; 'many' is no "));
+    const std::string structures = of_eight + "struct P { vec2 place; int other; };\nbuffer Grains { P p[]; } grains;\n"
+                                              "buffer Out { float x[]; };\n"
+                                              "void main() { uint i = gl_GlobalInvocationID.x;\n"
+                                              "x[grains.p[i].other] = log(grains.p[i].place.y); }\n";
+    CHECK(found(structures, with("Grains.p.other", "iota")).empty());
+    CHECK(found(structures, with("Grains.p.place", "iota")) == Lines{"6 6 race on a buffer"});
+    CHECK(found(structures, {.groups = {1, 1, 1}, .fills = {{"Grains.p.other", "iota"}, {"Grains.p.place", "zero"}}}) ==
+          Lines{"6 log of 0 or less"});
+    // A race that does not rest on them has no such words.
+    CHECK_THAT(examined(of_eight + "buffer Indices { uint at[]; };\nbuffer Out { float x[]; };\n"
+                                   "void main() { x[at[0]] = 1.0; }\n")
+                   .findings.front()
+                   .found.what,
+               !Contains("--fill"));
+    const std::string image = of_eight +
+                              "layout(r32i) uniform iimage1D places;\nbuffer Out { float x[]; };\n"
+                              "void main() { x[imageLoad(places, int(gl_GlobalInvocationID.x)).x] = 1.0; }\n";
+    CHECK_THAT(examined(image).findings.front().found.what, Contains("(not with --fill places=iota)"));
+    CHECK(found(image, with("places", "iota")).empty());
 }
 
 TEST_CASE("examine: an atomic operation outside of an image gives 0 and leaves it as it is") {

@@ -18,6 +18,7 @@
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/examine.hpp"
+#include "crosscheck/text/stage_text.hpp"
 #include "lockstep/lockstep.hpp"
 #include "reference/model/error.hpp"
 
@@ -25,12 +26,12 @@ namespace lockstep {
 namespace {
 
 struct ExamineRequest {
-    std::filesystem::path file, json;
+    std::filesystem::path file, reference, json;
     std::optional<std::string> groups;
     std::string gl;
     std::optional<std::size_t> invocations;
     std::vector<std::string> uniforms, inputs, sizes, fills, defines;
-    std::size_t seed = 1, subgroup_size = text::lanes_at_once;
+    std::size_t seed = 1, integers = 0, subgroup_size = text::lanes_at_once;
     bool quiet = false;
 };
 
@@ -76,7 +77,7 @@ std::array<std::uint32_t, 3> groups_of(const std::string& text) {
 }
 
 int run_examine(const ExamineRequest& options) {
-    Examination of{.file = options.file};
+    Examination of{.file = options.file, .reference = options.reference};
     if (const std::optional<Stage> stage = stage_of(options.file); stage == Stage::compute) {
         if (options.invocations || !options.inputs.empty())
             throw Error("--invocations and --input are of vertex, geometry and fragment stages; use --groups");
@@ -105,11 +106,14 @@ int run_examine(const ExamineRequest& options) {
     for (const std::string& one : options.defines)
         of.defines.push_back(macro_of("--define", one));
     of.seed = static_cast<std::uint32_t>(options.seed);
+    of.integers = static_cast<std::uint32_t>(options.integers);
     if (!std::has_single_bit(options.subgroup_size))
         throw Error(fmt::format("--subgroup-size {}: expected a power of 2", options.subgroup_size));
     of.subgroup_size = static_cast<std::uint32_t>(options.subgroup_size);
     OutputFiles files;
     files.protect(options.file);
+    if (!options.reference.empty())
+        files.protect(options.reference);
     if (!options.json.empty())
         files.expect(options.json);
     std::optional<Gl> gl;
@@ -128,7 +132,7 @@ int run_examine(const ExamineRequest& options) {
     files.commit();
     if (!options.quiet)
         fmt::print("{}", plain_text(result.text(of)));
-    return result.findings.empty() && (!result.gpu || result.gpu->is_right()) ? status_agree : status_differ;
+    return result.is_right() ? status_agree : status_differ;
 }
 
 } // namespace
@@ -163,13 +167,20 @@ Verb examine_command() {
     verb.add(otherwise(integer_option("--subgroup-size", "N", IntegerRange{1, text::lanes_at_once},
                                       options->subgroup_size, "invocations of a subgroup, a power of 2"),
                        std::to_string(text::lanes_at_once)));
+    verb.add(path_option("--reference", "OTHER", options->reference,
+                         "compare with another text of the same stage, run from the same numbers: DIVERGENT words, the "
+                         "invocation that wrote them and the line of FILE without a counterpart"));
+    verb.add(otherwise(integer_option("--integers", "N", IntegerRange{0, 1'000'000}, options->integers,
+                                      "integers of arrays and images look random, from 0 to N - 1; 0: all are 0"),
+                       "0"));
     verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options->gl,
                          "run a compute stage on this GL, too, and compare every word with what its text allows"));
     verb.add(path_option("--json", "FILE", options->json, "write the findings as JSON"));
     verb.add(flag("--quiet", options->quiet, "print nothing"));
-    verb.footer = "Exit status: 0 nothing was found, 1 something was, 2 could not run.\n"
+    verb.footer = "Exit status: 0 nothing was found and all words agree or are legal, 1 otherwise, 2 could not run.\n"
                   "Examples: lockstep examine blur.comp --groups 4,4 --uniform u_Radius=3\n"
-                  "          lockstep examine shade.frag --input v_Normal=0,0,1";
+                  "          lockstep examine shade.frag --input v_Normal=0,0,1\n"
+                  "          lockstep examine blur.comp --reference yesterday/blur.comp";
     verb.run = [options](const Call&) { return run_examine(*options); };
     return verb;
 }

@@ -15,9 +15,8 @@
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/open_pass.hpp"
 #include "crosscheck/judge/system_run.hpp"
-#include "crosscheck/text/examine.hpp"
-#include "crosscheck/text/text_pass.hpp"
-#include "crosscheck/text/witness.hpp"
+#include "crosscheck/text/pass_witness.hpp"
+#include "crosscheck/text/stage_text.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -152,7 +151,7 @@ std::vector<std::string> lines_without_counterpart(const ShadedSystem& of, const
     std::vector<std::string> lines;
     for (const WitnessLine& one : witness_lines(*own[p], *expected, judged.input(), judged.profile,
                                                 judged.pass.resource(), items.wrong, items.right, is_own_line))
-        lines.push_back(fmt::format("{}: {}: {}", one.where, plain_line(one.text), one.what));
+        lines.push_back(plain_line(line_of(one)));
     return lines;
 } catch (const Error&) {
     return {}; // notes say what is not interpreted

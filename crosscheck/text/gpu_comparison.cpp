@@ -1,25 +1,21 @@
 #include "crosscheck/text/gpu_comparison.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "crosscheck/text/watched_run.hpp"
+#include "crosscheck/text/word_comparison.hpp"
 #include "gpu/lone_dispatch.hpp"
 #include "reference/known_operations.hpp"
 #include "reference/model/error.hpp"
 #include "reference/text/dispatch.hpp"
-#include "reference/text/outcomes.hpp"
-#include "reference/text/trace.hpp"
 
 namespace lockstep {
 namespace {
-
-using Space = text::WrittenPlace::Space;
 
 /// The schema of the images, of those formats that a state has. Throws Error for others.
 Schema images_of(const text::Program& program, const text::Bindings& bindings) {
@@ -88,108 +84,24 @@ MadeUpWorld on_gl(const ShaderSource& source, const text::Program& program, cons
     return made;
 }
 
-/// A word of a world that differs.
-struct Differing {
-    text::WrittenPlace place;
-    std::uint32_t expected = 0, got = 0;
-};
-
-std::string with_bits(std::uint32_t bits, bool is_real) {
-    return fmt::format("{} ({:#010x})", text::value_text(bits, is_real), bits);
-}
-
-/// Judges the words that one invocation wrote otherwise than the text.
-class Judge {
-  public:
-    Judge(const MeasuredGl& gl, const text::Program& program, const std::array<std::uint32_t, 3>& groups,
-          const MadeUpWorld& world)
-        : profile_(gl.profile), known_(in_compute_stage(measured_operations(gl.profile), gl.profile)),
-          program_(program), groups_(groups), world_(world), outcomes_(program) {}
-
-    /// Whether one of the invocation's outcomes has all of them. Throws Error for what is not followed by sets.
-    [[nodiscard]] bool allows(std::uint32_t invocation, std::span<const Differing> words) const {
-        const std::vector<text::InvocationOutcome> all =
-            outcomes_.of(text::invocation_of(program_, groups_, invocation), groups_, world_.bindings,
-                         PassStage::compute, profile_, known_);
-        return std::ranges::any_of(all, [&](const text::InvocationOutcome& outcome) {
-            return outcome.undefined != Undefined::none || std::ranges::all_of(words, [&](const Differing& one) {
-                       const auto word = std::ranges::find(outcome.written, one.place, &text::WrittenWord::place);
-                       return word != outcome.written.end() &&
-                              (word->is_real ? word->set.contains(std::bit_cast<float>(one.got))
-                                             : word->word == one.got);
-                   });
-        });
+/// "blur.comp:12, invocation 3: Out.x[7]: expected ..., the driver made ..."
+std::string line_of(const StageText& stage, const BoundStage& text, const ComparedWord& one) {
+    std::string where;
+    if (one.invocation) {
+        const std::optional<std::string> line = text.line_of(*one.invocation, one.place);
+        where = fmt::format("{}invocation {}: ", line ? *line + ", " : "", *one.invocation);
     }
-    /// "blur.comp:12, invocation 3: Out word 7: ..."
-    [[nodiscard]] std::string line(std::optional<std::uint32_t> invocation, const Differing& one) const {
-        bool is_real = true;
-        std::string where;
-        if (invocation) {
-            where = fmt::format("invocation {}: ", *invocation);
-            try {
-                text::Trace trace;
-                text::run_traced(program_, text::invocation_of(program_, groups_, *invocation), groups_,
-                                 world_.bindings, profile_, {}, trace);
-                for (const text::TraceRow& row : trace.rows)
-                    if (row.kind == text::TraceRow::Kind::store && row.place == one.place) {
-                        is_real = row.is_real;
-                        where = fmt::format("{}, invocation {}: ", program_.line_name(row.line), *invocation);
-                    }
-            } catch (const Error&) { // run together with others: the line is not known
-            }
-        }
-        const std::string& name = one.place.space == Space::block ? program_.blocks[one.place.number].name
-                                                                  : program_.images[one.place.number].name;
-        return fmt::format("{}{} word {}: expected {}, the driver made {}{}", where, name, one.place.word,
-                           with_bits(one.expected, is_real), with_bits(one.got, is_real),
-                           invocation ? "" : "; the text writes nothing there");
-    }
-
-  private:
-    Profile profile_;
-    KnownOperations known_;
-    const text::Program& program_;
-    std::array<std::uint32_t, 3> groups_;
-    const MadeUpWorld& world_;
-    text::Outcomes outcomes_;
-};
-
-/// Words that differ, by the one invocation that wrote each in the text; nobody and several are nothing.
-std::map<std::optional<std::uint32_t>, std::vector<Differing>>
-differing_words(const text::Program& program, const MadeUpWorld& expected, const MadeUpWorld& got,
-                const text::Writers& writers, GpuComparison& counts) {
-    std::map<std::optional<std::uint32_t>, std::vector<Differing>> all;
-    const auto compare = [&](Space space, std::size_t number, std::span<const std::uint32_t> a,
-                             std::span<const std::uint32_t> b, std::span<const std::uint32_t> by) {
-        counts.words += a.size();
-        const bool has_codes =
-            space == Space::texel && expected.bindings.images[number].code == text::TexelMemory::Code::unorm8;
-        for (std::size_t w = 0; w < a.size(); ++w)
-            if (has_codes && (a[w] == b[w] + 1 || b[w] == a[w] + 1)) { // either of the two nearest (GL 4.6, 2.3.5.2)
-                ++counts.differing;
-                ++counts.legal;
-            } else if (a[w] != b[w])
-                all[by[w] == 0 ? std::nullopt : std::optional(by[w] - 1)].push_back(
-                    {{space, static_cast<std::uint32_t>(number), w}, a[w], b[w]});
-    };
-    for (std::size_t b = 0; b < program.blocks.size(); ++b)
-        if (program.blocks[b].is_storage && expected.words_of_block(b) == b)
-            compare(Space::block, b, expected.words[b], got.words[b], writers.blocks[b]);
-    for (std::size_t i = 0; i < program.images.size(); ++i)
-        if (program.images[i].is_storage)
-            compare(Space::texel, i, expected.words[program.blocks.size() + i], got.words[program.blocks.size() + i],
-                    writers.images[i]);
-    for (const auto& [by, words] : all)
-        counts.differing += words.size();
-    return all;
+    const NamedWord word = named_word(stage, text.bindings, one.place);
+    return fmt::format("{}{}: {}{}", where, word.name, both_values(one, word.is_real, "the driver made"),
+                       one.invocation ? "" : "; the text writes nothing there");
 }
 
 } // namespace
 
-GpuComparison compare_with_gpu(const MeasuredGl& gl, const ShaderSource& source, const text::Program& program,
-                               const std::array<std::uint32_t, 3>& groups, const MadeUpWorld& world,
-                               const text::Findings& found) {
-    constexpr std::size_t most_judged = 2000, most_lines = 3;
+GpuComparison compare_with_gpu(const MeasuredGl& gl, const StageText& stage, const std::array<std::uint32_t, 3>& groups,
+                               const MadeUpWorld& world, const text::Findings& found) {
+    constexpr std::size_t most_lines = 3;
+    const text::Program& program = stage.program;
     GpuComparison made{.gl = gl.name, .not_run = {}, .unjudged_for = {}, .wrong = {}};
     if (std::ranges::any_of(found.all(), text::is_endless)) {
         made.not_run = "it does not end";
@@ -201,37 +113,25 @@ GpuComparison compare_with_gpu(const MeasuredGl& gl, const ShaderSource& source,
     MadeUpWorld got;
     try {
         text::run_dispatch(program, {.groups = groups, .writers = &writers}, expected.bindings, gl.profile, ignored);
-        got = on_gl(source, program, groups, world);
+        got = on_gl(*stage.source, program, groups, world);
     } catch (const Error& error) {
         made.not_run = error.what();
         return made;
     }
-    const auto differing = differing_words(program, expected, got, writers, made);
-    if (!found.all().empty()) {
-        made.open = made.differing;
-        return made;
-    }
-    const Judge judge(gl, program, groups, world);
-    std::size_t judged = 0;
-    for (const auto& [invocation, words] : differing) {
-        try {
-            if (invocation && judged++ == most_judged)
-                throw Error(fmt::format("they are of more than {} invocations", most_judged));
-            if (invocation && judge.allows(*invocation, words)) {
-                made.legal += words.size();
-                continue;
-            }
-        } catch (const Error& error) {
-            made.unjudged += words.size();
-            if (made.unjudged_for.empty())
-                made.unjudged_for = error.what();
-            judged = most_judged; // the rest is likely the same
-            continue;
-        }
-        made.wrong_words += words.size();
-        if (made.wrong.size() < most_lines)
-            made.wrong.push_back(judge.line(invocation, words.front()));
-    }
+    const BoundStage text{program, world.bindings, gl.profile, groups};
+    const std::vector<std::span<const std::uint32_t>> words(got.words.begin(), got.words.end());
+    const WordComparison compared = compare_words(
+        text, compared_words(program, expected, writers, words),
+        {.known = in_compute_stage(measured_operations(gl.profile), gl.profile), .judges = found.all().empty()});
+    made.words = compared.words;
+    made.differing = compared.differing;
+    made.legal = compared.legal;
+    made.open = found.all().empty() ? 0 : compared.differing;
+    made.unjudged = compared.unjudged.size();
+    made.unjudged_for = compared.unjudged_for;
+    made.wrong_words = compared.wrong.size();
+    for (const ComparedWord& one : first_of_each(compared.wrong, most_lines))
+        made.wrong.push_back(line_of(stage, text, one));
     return made;
 }
 

@@ -7,10 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/text/made_up_world.hpp"
-#include "gpu/shader_source.hpp"
+#include "crosscheck/text/stage_text.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/text/findings.hpp"
-#include "reference/text/program.hpp"
 
 namespace lockstep {
 
@@ -40,8 +39,7 @@ struct GpuComparison {
 
 /// Runs a compute stage on GL from the same state as its text, and compares every word of its storage blocks and
 /// images. `found`: what a watched run of the text came by, which leaves open what it touches.
-GpuComparison compare_with_gpu(const MeasuredGl& gl, const ShaderSource& source, const text::Program& program,
-                               const std::array<std::uint32_t, 3>& groups, const MadeUpWorld& world,
-                               const text::Findings& found);
+GpuComparison compare_with_gpu(const MeasuredGl& gl, const StageText& stage, const std::array<std::uint32_t, 3>& groups,
+                               const MadeUpWorld& world, const text::Findings& found);
 
 } // namespace lockstep

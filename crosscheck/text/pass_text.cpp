@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/text/glsl_module.hpp"
+#include "crosscheck/text/stage_text.hpp"
 #include "gpu/gl_system_blocks.hpp"
 #include "gpu/spirv_module.hpp"
 #include "gpu/state_image.hpp"
@@ -171,16 +172,7 @@ bool PassText::is_text_of(const ShaderFolders& folders) const {
     return source_->module->words == other->module->words;
 }
 
-std::string PassText::line_text(std::uint32_t line) const {
-    std::string_view rest = source_->text;
-    for (std::uint32_t at = 1; at < line && !rest.empty(); ++at)
-        rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
-    rest = rest.substr(0, rest.find('\n'));
-    if (const std::size_t comment = rest.find("//"); comment != std::string_view::npos)
-        rest = rest.substr(0, comment);
-    const std::size_t first = rest.find_first_not_of(" \t"), last = rest.find_last_not_of(" \t\r");
-    return first == std::string_view::npos ? std::string() : std::string(rest.substr(first, last - first + 1));
-}
+std::string PassText::line_text(std::uint32_t line) const { return lockstep::line_text(*source_, line); }
 
 bool PassText::writes(std::uint8_t resource) const {
     return std::find(written_.begin(), written_.end(), resource) != written_.end();

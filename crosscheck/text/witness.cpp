@@ -15,75 +15,22 @@
 namespace lockstep {
 namespace {
 
-/// A block or an image has one number in the runs of both texts.
-class Names {
-  public:
-    std::uint32_t number(const std::string& name) {
-        return numbers_.emplace(name, static_cast<std::uint32_t>(numbers_.size())).first->second;
-    }
-
-  private:
-    std::map<std::string, std::uint32_t> numbers_;
-};
-
-/// Runs of single invocations of a text from one input.
-class Runs {
-  public:
-    Runs(const PassText& text, const PassInput& in, const Profile& profile, Names& names)
-        : text_(text), profile_(profile), dispatch_(text, in, profile) {
-        for (const text::Block& block : text.program().blocks)
-            blocks_.push_back(names.number(block.name));
-        for (const text::ImageUniform& image : text.program().images)
-            images_.push_back(names.number(image.name));
-    }
-    [[nodiscard]] std::optional<std::uint32_t> writer(std::uint8_t resource, std::size_t item) const {
-        return dispatch_.writer(resource, item);
-    }
-    [[nodiscard]] text::TracedRun run(std::uint32_t invocation, std::span<const text::ForcedRow> forced = {}) const {
-        text::TracedRun run;
-        const PassText::Input& input = dispatch_.input();
-        run.words = text::run_traced(text_.program(), text_.invocation(input, invocation), input.groups, input.bindings,
-                                     profile_, forced, run.trace, text_.inputs_of(input, invocation));
-        std::erase_if(run.words, [&](const text::TracedWord& word) {
-            return word.place.space == text::WrittenPlace::Space::output && !text_.captured_component(word.place.word);
-        });
-        for (text::TracedWord& word : run.words)
-            name(word.place);
-        std::sort(run.words.begin(), run.words.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
-        for (text::TraceRow& row : run.trace.rows)
-            if (row.kind == text::TraceRow::Kind::load || row.kind == text::TraceRow::Kind::store)
-                name(row.place);
-        return run;
-    }
-
-  private:
-    void name(text::WrittenPlace& place) const {
-        using Space = text::WrittenPlace::Space;
-        if (place.space == Space::output) // those that are not captured lie behind
-            place.word = text_.captured_component(place.word).value_or(place.word + (1U << 16U));
-        else
-            place.number = place.space == Space::block ? blocks_[place.number] : images_[place.number];
-    }
-    const PassText& text_;
-    const Profile& profile_;
-    TextDispatch dispatch_;
-    std::vector<std::uint32_t> blocks_, images_;
-};
+/// "compares 2 and 3".
+std::string compared(const text::Trace& trace, const text::TraceRow& row) {
+    const auto operands = trace.of(row);
+    return operands.size() == 2 ? fmt::format("compares {} and {}", text::value_text(operands[0].bits, row.is_real),
+                                              text::value_text(operands[1].bits, row.is_real))
+                                : "asks";
+}
 
 std::string what_of(const text::Trace& trace, const text::Suspect& suspect) {
     const text::TraceRow& row = trace.rows[suspect.row];
     if (row.kind == text::TraceRow::Kind::store)
         return fmt::format("writes {}, which the reference does not write there",
                            text::value_text(row.bits, row.is_real));
-    if (row.kind == text::TraceRow::Kind::comparison) {
-        const auto operands = trace.of(row);
-        const std::string compared =
-            operands.size() == 2 ? fmt::format("compares {} and {}", text::value_text(operands[0].bits, row.is_real),
-                                               text::value_text(operands[1].bits, row.is_real))
-                                 : "asks";
-        return fmt::format("{}, which the reference does not{}", compared,
+    if (row.kind == text::TraceRow::Kind::comparison)
+        return fmt::format("{}, which the reference does not{}", compared(trace, row),
                            suspect.repairs ? "; with the other answer all that it writes is right" : "");
-    }
     const std::string made = fmt::format("{} {}", row.kind == text::TraceRow::Kind::load ? "reads" : "makes",
                                          text::value_text(row.bits, row.is_real));
     return suspect.repairs ? fmt::format("{}; with {} all that it writes is right", made,
@@ -100,39 +47,64 @@ struct Line {
 
 } // namespace
 
-std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& reference, const PassInput& in,
-                                       const Profile& profile, std::uint8_t resource,
-                                       std::span<const std::size_t> items, std::span<const std::size_t> others,
+text::TracedRun common_run(const WitnessedText& text, std::uint32_t invocation,
+                           std::span<const text::ForcedRow> forced) {
+    constexpr std::uint64_t behind = std::uint64_t{1} << 48U;
+    text::TracedRun run = text.run(invocation, forced);
+    const auto name = [&](text::WrittenPlace& place) {
+        const std::optional<text::WrittenPlace> common = text.common(place);
+        if (common)
+            place = *common;
+        else
+            place.word += behind;
+        return common.has_value();
+    };
+    std::vector<text::TracedWord> words;
+    for (text::TracedWord word : std::exchange(run.words, {}))
+        if (name(word.place))
+            words.push_back(word);
+    run.words = std::move(words);
+    std::sort(run.words.begin(), run.words.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
+    for (text::TraceRow& row : run.trace.rows)
+        if (row.kind == text::TraceRow::Kind::load || row.kind == text::TraceRow::Kind::store)
+            name(row.place);
+    return run;
+}
+
+std::string line_of(const WitnessLine& line) { return fmt::format("{}: {}: {}", line.where, line.text, line.what); }
+
+std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const WitnessedText& reference,
+                                       std::span<const ItemWriters> items, std::span<const ItemWriters> others,
                                        const std::function<bool(std::string_view where)>& is_own) try {
     constexpr double repair = 3.0, repair_of_output = 1.0, no_repair = 0.5, floor_of_score = 0.2;
     constexpr std::size_t most_lines = 3;
-    Names names;
-    const Runs of_wrong(wrong, in, profile, names), of_reference(reference, in, profile, names);
-    const auto line_in = [&](const text::Program& program, const text::Trace& trace,
+    const text::Program &program = wrong.program, &expected = reference.program;
+    const auto line_in = [&](const text::Program& of, const text::Trace& trace,
                              const text::TraceRow& row) -> std::optional<std::uint32_t> {
-        for (const std::uint32_t line : text::lines_of(program, trace, row))
-            if (is_own(program.line_name(line)))
+        for (const std::uint32_t line : text::lines_of(of, trace, row))
+            if (is_own(of.line_name(line)))
                 return line;
         return {};
     };
     const auto line_of = [&](const text::Trace& trace, const text::TraceRow& row) {
-        return line_in(wrong.program(), trace, row);
+        return line_in(program, trace, row);
     };
     std::map<std::uint32_t, Line> missing; // lines of the reference
     std::map<std::uint32_t, Line> lines;
     std::size_t looked_at = 0;
-    for (const std::size_t item : items) {
-        const auto invocation = of_reference.writer(resource, item);
-        const auto own = of_wrong.writer(resource, item);
+    for (const auto& [own, invocation] : items) {
         if (!invocation && !own)
             continue;
         const std::uint32_t number = own.value_or(invocation.value_or(0));
-        const text::TracedRun run = of_wrong.run(number), right = of_reference.run(invocation.value_or(number));
+        const text::TracedRun run = common_run(wrong, number),
+                              right = common_run(reference, invocation.value_or(number));
         if (run.words == right.words)
             continue; // the text does not differ: the driver does
         ++looked_at;
-        const std::vector<text::Suspect> suspects = text::suspects_of(
-            run, right, [&](std::span<const text::ForcedRow> forced) { return of_wrong.run(number, forced).words; });
+        const std::vector<text::Suspect> suspects =
+            text::suspects_of(run, right, [&](std::span<const text::ForcedRow> forced) {
+                return common_run(wrong, number, forced).words;
+            });
         std::map<std::uint32_t, double> of_item;
         for (const text::Suspect& one : suspects) {
             const double weight = one.repairs ? (one.is_output ? repair_of_output : repair) : no_repair;
@@ -152,13 +124,15 @@ std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& re
             const text::TraceRow& one = right.trace.rows[row];
             constexpr std::uint32_t counted = 16; // 0 and what loops count say nothing
             const bool is_common = one.is_real ? (one.bits & 0x7fffffffU) == 0 : one.bits <= counted;
-            const auto at = one.kind == text::TraceRow::Kind::comparison || is_common
-                                ? std::nullopt
-                                : line_in(reference.program(), right.trace, one);
+            const bool is_comparison = one.kind == text::TraceRow::Kind::comparison;
+            // A comparison counts where it keeps the reference from writing at all.
+            const auto at =
+                (is_comparison ? !right.words.empty() : is_common) ? std::nullopt : line_in(expected, right.trace, one);
             if (!at)
                 continue;
             if (missing[*at].what.empty())
-                missing[*at].what = text::value_text(one.bits, one.is_real);
+                missing[*at].what = is_comparison ? compared(right.trace, one)
+                                                  : fmt::format("makes {}", text::value_text(one.bits, one.is_real));
             missed.insert(*at);
         }
         for (const std::uint32_t at : missed)
@@ -171,11 +145,10 @@ std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& re
     // A line that differs where both write the same is another way to write it.
     std::map<std::uint32_t, double> excused;
     std::size_t alike = 0;
-    for (const std::size_t item : others) {
-        const auto invocation = of_reference.writer(resource, item), own = of_wrong.writer(resource, item);
+    for (const auto& [own, invocation] : others) {
         if (!invocation || !own)
             continue;
-        const text::TracedRun run = of_wrong.run(*own), right = of_reference.run(*invocation);
+        const text::TracedRun run = common_run(wrong, *own), right = common_run(reference, *invocation);
         if (run.words != right.words)
             continue;
         ++alike;
@@ -198,16 +171,16 @@ std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& re
     for (const auto& [score, at] : ranked) {
         if (found.size() == most_lines || score < floor_of_score || score < 0.2 * ranked.front().first)
             break;
-        found.push_back({wrong.program().line_name(at), wrong.line_text(at), lines[at].what});
+        found.push_back({program.line_name(at), wrong.line_text(at), lines[at].what});
     }
     // What the reference makes and the text never does, where no line of the text repairs anything.
     const bool repairs = !ranked.empty() && lines[ranked.front().second].loudest > repair_of_output;
     const auto most = std::max_element(missing.begin(), missing.end(),
                                        [](const auto& a, const auto& b) { return a.second.score < b.second.score; });
     if (!repairs && most != missing.end() && most->second.score > 0.3 * static_cast<double>(looked_at))
-        found.insert(found.begin(), {fmt::format("{} of the reference", reference.program().line_name(most->first)),
+        found.insert(found.begin(), {fmt::format("{} of the reference", expected.line_name(most->first)),
                                      reference.line_text(most->first),
-                                     fmt::format("makes {}, which this text never does", most->second.what)});
+                                     fmt::format("{}, which this text never does", most->second.what)});
     found.resize(std::min(found.size(), most_lines));
     return found;
 } catch (const Error&) {

@@ -1,13 +1,14 @@
 #pragma once
-#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "crosscheck/text/text_pass.hpp"
+#include "reference/text/alignment.hpp"
+#include "reference/text/program.hpp"
 
 namespace lockstep {
 
@@ -18,13 +19,35 @@ struct WitnessLine {
     std::string what;  ///< what it gave of an item, and what would have been right there
 };
 
-/// Looks for the lines of `wrong` that make what the GPU made wrong, where its text makes it wrong, too: a dispatch of
-/// both texts from one input, invocation by invocation (reference/text/alignment.hpp). At most three, the likeliest
-/// first; none where too little speaks for any. `items` differ from the reference, `others` do not.
+/// "FILE:LINE: TEXT: WHAT".
+std::string line_of(const WitnessLine& line);
+
+/// One of the two texts that the witness looks at.
+struct WitnessedText {
+    const text::Program& program;
+    /// One invocation apart from others, with some rows forced. Throws Error for what is not run so.
+    std::function<text::TracedRun(std::uint32_t invocation, std::span<const text::ForcedRow> forced)> run;
+    /// Gives a place the numbers that it has in both texts; nothing: the other text has no such place.
+    std::function<std::optional<text::WrittenPlace>(text::WrittenPlace)> common;
+    std::function<std::string(std::uint32_t line)> line_text;
+};
+
+/// The run of an invocation by places that both texts have. Outputs of one alone lie behind all others, and are none of
+/// its words.
+text::TracedRun common_run(const WitnessedText& text, std::uint32_t invocation,
+                           std::span<const text::ForcedRow> forced = {});
+
+/// The invocation that wrote an item in each of the texts; nothing: none or several did.
+struct ItemWriters {
+    std::optional<std::uint32_t> wrong, reference;
+};
+
+/// Looks for the lines of `wrong` that make what it writes differ from what `reference` writes from the same state,
+/// invocation by invocation (reference/text/alignment.hpp). At most three, the likeliest first; none where too little
+/// speaks for any. `items` differ from the reference, `others` do not.
 /// What lies in a file that is none of the user's, by is_own(FILE:LINE), counts as the call's line.
-std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& reference, const PassInput& in,
-                                       const Profile& profile, std::uint8_t resource,
-                                       std::span<const std::size_t> items, std::span<const std::size_t> others,
+std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const WitnessedText& reference,
+                                       std::span<const ItemWriters> items, std::span<const ItemWriters> others,
                                        const std::function<bool(std::string_view where)>& is_own);
 
 } // namespace lockstep

@@ -27,12 +27,14 @@ std::string kernel(const std::string& statements, const std::string& before = ""
 /// What GL makes of `on_gl`, held against `text`: of a driver without faults they are one.
 GpuComparison compared(const std::string& text, const std::string& on_gl, bool is_found = false) {
     const TextKernel known(text);
-    ShaderSource source;
-    source.text = on_gl;
-    source.stage = Stage::compute;
-    source.files = {"kernel.comp"};
+    const auto source = std::make_shared<ShaderSource>();
+    source->text = on_gl;
+    source->stage = Stage::compute;
+    source->files = {"kernel.comp"};
     for (int line = 1; line < 40; ++line)
-        source.origins.push_back({0, line});
+        source->origins.push_back({0, line});
+    const StageText stage{"kernel.comp", source, TextKernel::module_of(Stage::compute, text, "kernel.comp"),
+                          known.program};
     MadeUpWorld world;
     world.words.emplace_back();
     for (int i = 0; i < 64; ++i)
@@ -55,7 +57,7 @@ GpuComparison compared(const std::string& text, const std::string& on_gl, bool i
     text::Findings findings;
     if (is_found)
         findings.add("race on a buffer", {7, 1}, [] { return "x"; });
-    return compare_with_gpu({"this GL", gl().profile()}, source, known.program, groups, world, findings);
+    return compare_with_gpu({"this GL", gl().profile()}, stage, groups, world, findings);
 }
 
 } // namespace
@@ -88,14 +90,14 @@ TEST_CASE("GPU comparison: what the text does not allow is the driver's, with li
     CHECK_FALSE(made.is_right());
     CHECK(made.wrong_words == 1);
     REQUIRE(made.wrong.size() == 1);
-    CHECK_THAT(made.wrong.front(), Contains("kernel.comp:8, invocation 5: Numbers word 5: expected 3.9") &&
-                                       Contains("the driver made 5.8"));
+    CHECK_THAT(made.wrong.front(),
+               Contains("kernel.comp:8, invocation 5: Numbers.x[5]: expected 3.9") && Contains("the driver made 5.8"));
     CHECK_THAT(made.text(),
                Contains("on this GL: 1 of 64 words differ: 0 as GL allows, 1 as it does not, 0 not judged"));
     // Where a text writes nothing there is no line.
     const GpuComparison more = compared(kernel("    if (i < 8u) x[i] = 1.0;"), kernel("    if (i < 9u) x[i] = 1.0;"));
     CHECK(more.wrong_words == 1);
-    CHECK_THAT(more.wrong.front(), Contains("Numbers word 8") && Contains("the text writes nothing there"));
+    CHECK_THAT(more.wrong.front(), Contains("Numbers.x[8]") && Contains("the text writes nothing there"));
 }
 
 TEST_CASE("GPU comparison: another order of a sum is legal without precise, and not with it") {

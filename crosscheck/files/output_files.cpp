@@ -46,6 +46,15 @@ void expect_no_inputs(Identities inputs, const Identities& outputs) {
                                                : fmt::format("it is {}, which the run reads", input->second.string()));
 }
 
+/// Options in the wrong order: a shader's name where the report's was meant.
+void expect_no_shader(const fs::path& file) {
+    static constexpr std::array shaders{".vert", ".tesc", ".tese", ".geom", ".frag", ".comp", ".glsl", ".spv"};
+    if (std::ranges::find(shaders, file.extension().string()) != shaders.end())
+        throw Error(
+            fmt::format("{}: cannot be written: it is a shader by its name; expected another for what the run makes",
+                        plain_line(file.string())));
+}
+
 } // namespace
 
 OutputFiles::OutputFiles() = default;
@@ -84,12 +93,6 @@ AtomicFile& OutputFiles::add(const fs::path& file) {
 void OutputFiles::expect(const fs::path& file) {
     any = true;
     add(file);
-    // Options in the wrong order: a shader's name where the report's was meant.
-    static constexpr std::array shaders{".vert", ".tesc", ".tese", ".geom", ".frag", ".comp", ".glsl", ".spv"};
-    if (std::ranges::find(shaders, file.extension().string()) != shaders.end())
-        throw Error(
-            fmt::format("{}: cannot be written: it is a shader by its name; expected another for what the run makes",
-                        plain_line(file.string())));
 }
 
 std::string OutputFiles::written_text() const {
@@ -136,6 +139,8 @@ void OutputFiles::write(const fs::path& file, std::string content) {
 
 void OutputFiles::commit() {
     expect_no_inputs(inputs_, outputs_); // what was read since they were named
+    for (const fs::path& file : written_)
+        expect_no_shader(file);
     // What cannot be undone comes first; a pipe may have to be waited for.
     const auto whole = std::stable_partition(written_.begin(), written_.end(),
                                              [&](const fs::path& file) { return files_.at(file).in_place(); });

@@ -44,7 +44,7 @@ class BothRuns {
             words.push_back(block ? std::span<const std::uint32_t>(run_.world.words[run_.world.words_of_block(*block)])
                                   : std::span<const std::uint32_t>());
         for (const std::size_t image : names_.images)
-            words.emplace_back(run_.world.words[text_.program.blocks.size() + image]);
+            words.emplace_back(run_.world.words[run_.world.words_of_image(image)]);
         std::vector<ComparedWords> all = compared_words(reference_.program, expected_.world, expected_.writers, words);
         const auto output_words = [](const WatchedRun& run, const text::StageVariable& output) {
             return std::span<const std::uint32_t>(run.outputs.outputs.at(text::name_of(output)));

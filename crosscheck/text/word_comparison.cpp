@@ -85,7 +85,7 @@ std::vector<ComparedWords> compared_words(const text::Program& program, const Ma
         if (program.blocks[b].is_storage && expected.words_of_block(b) == b)
             add(Space::block, b, b, writers.blocks);
     for (std::uint32_t i = 0; i < program.images.size(); ++i)
-        if (program.images[i].is_storage)
+        if (program.images[i].is_storage && expected.words_of_image(i) == program.blocks.size() + i)
             add(Space::texel, i, program.blocks.size() + i, writers.images);
     return all;
 }

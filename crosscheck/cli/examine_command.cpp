@@ -132,6 +132,8 @@ int run_examine(const ExamineRequest& options) {
     files.commit();
     if (!options.quiet)
         fmt::print("{}", plain_text(result.text(of)));
+    if (result.is_right() && result.gpu && !result.gpu->not_run.empty())
+        throw Error(fmt::format("--gl {}: not run: {}", options.gl, result.gpu->not_run));
     return result.is_right() ? status_agree : status_differ;
 }
 

@@ -155,6 +155,7 @@ std::string probe_key(const Context& context) {
 }
 
 std::optional<fs::path> probe_folder() {
+    std::error_code none;
     fs::path folder = variable("LOCKSTEP_CACHE");
     if (folder == "off")
         return std::nullopt;
@@ -162,9 +163,11 @@ std::optional<fs::path> probe_folder() {
         const std::string caches = variable("XDG_CACHE_HOME"), home = variable("HOME");
         if (caches.empty() && home.empty())
             return std::nullopt;
+        const fs::path base = caches.empty() ? fs::path(home) : fs::path(caches).parent_path();
+        if (!fs::is_directory(base, none)) // a home that is not there is not made
+            return std::nullopt;
         folder = (caches.empty() ? fs::path(home) / ".cache" : fs::path(caches)) / "lockstep";
     }
-    std::error_code none;
     if (!folder.is_absolute())
         return std::nullopt;
     if (fs::create_directories(folder, none))

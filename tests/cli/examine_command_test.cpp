@@ -273,14 +273,16 @@ TEST_CASE("examine: a stage that the driver refuses was not run, whatever its te
     if (!have_software_gl())
         return skip("no software GL");
     const TemporaryFolder folder;
-    const std::string file = folder
-                                 .write("mine.comp", "layout(local_size_x = 1) in;\nbuffer Numbers { float x; };\n"
-                                                     "void main() {\n    x = 1.0;\n#ifndef GL_SPIRV\n    foo();\n"
-                                                     "#endif\n}\n")
-                                 .string();
+    const std::string file =
+        folder
+            .write("mine.comp",
+                   "#version 430 core\nlayout(local_size_x = 1) in;\nbuffer Numbers { float x; };\n"
+                   "void main() {\n    if (gl_GlobalInvocationID.x == 0u) x = 1.0;\n#ifndef GL_SPIRV\n    foo();\n"
+                   "#endif\n}\n")
+            .string();
     const Outcome outcome = run_lockstep({"examine", file, "--quiet", "--gl", software_gl()});
     CHECK(outcome.status == 2);
-    CHECK_THAT(outcome.err, Contains("not run: ") && Contains("mine.comp:6"));
+    CHECK_THAT(outcome.err, Contains("not run: ") && Contains("mine.comp:7"));
 }
 
 TEST_CASE("check: a report on shaders of one's own says what their texts show, whatever the driver made of it") {

@@ -135,6 +135,12 @@ TEST_CASE("kept probe: no folder of others, and none where there is none") {
         const Variable cache("LOCKSTEP_CACHE", ""), caches("XDG_CACHE_HOME", ""), home("HOME", "");
         CHECK(probe_folder() == std::nullopt);
     }
+    {
+        const std::string away = (folder.path() / "away").string();
+        const Variable cache("LOCKSTEP_CACHE", ""), caches("XDG_CACHE_HOME", ""), home("HOME", away);
+        CHECK(probe_folder() == std::nullopt);
+        CHECK(!fs::exists(away));
+    }
     for (const char* const other : {"off", "relative/folder", "/dev/null", "/dev/null/folder", "/proc/folder"}) {
         const Variable cache("LOCKSTEP_CACHE", other);
         INFO(other);

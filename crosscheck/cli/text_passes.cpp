@@ -13,6 +13,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/item_sample.hpp"
 #include "crosscheck/judge/open_pass.hpp"
 #include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/text/pass_witness.hpp"
@@ -104,13 +105,6 @@ struct SomeItems {
     std::vector<std::size_t> wrong, right;
 };
 
-std::vector<std::size_t> spread(const std::vector<std::size_t>& items, std::size_t most) {
-    std::vector<std::size_t> some;
-    for (std::size_t k = 0; k < std::min(most, items.size()); ++k)
-        some.push_back(items[k * items.size() / std::min(most, items.size())]);
-    return some;
-}
-
 SomeItems some_items(const JudgedPass& judged) {
     constexpr std::size_t most = 10, most_judged = 60;
     std::vector<std::size_t> different, alike, wrong;
@@ -123,10 +117,10 @@ SomeItems some_items(const JudgedPass& judged) {
             alike.push_back(item);
     }
     // What is legal follows from no line of the text alone.
-    for (const std::size_t item : spread(different, most_judged))
+    for (const std::size_t item : sample(different, most_judged))
         if (judge_item(judged, item).kind == DifferenceClass::divergent)
             wrong.push_back(item);
-    return {spread(wrong, most), spread(alike, most)};
+    return {sample(wrong, most), sample(alike, most)};
 }
 
 } // namespace

@@ -21,7 +21,7 @@ ends_with() {
 # Commands of docs/own_system.md, which are run as they stand there.
 page_lines() { grep "^    $1 " "$source/docs/own_system.md" | sed 's/^ *//'; }
 # Wherever its lines are broken.
-says() { tr -s '\\\n ' ' ' <out.txt | grep -qF -- "$1" || fail "this is not said: $1"; }
+says() { tr -s '\\\n ' ' ' <out.txt | grep -F -- "$1" > /dev/null || fail "this is not said: $1"; }
 
 succeeds cmake --install "$build" --prefix "$work/built"
 mv built prefix

@@ -19,8 +19,8 @@ for package in "$program" "$library"; do
         grep -q '^[EW]: ' "$folder/lintian" && { cat "$folder/lintian" >&2; fail "lintian has findings"; }
     fi
 done
-dpkg-deb -f "$program" Depends | grep -q 'libegl1.*libc6' || fail "the program does not name the libraries that it needs"
-dpkg-deb -f "$library" Depends | grep -q 'lockstep (= .*libhdf5-dev' || fail "the library does not name its parts"
+dpkg-deb -f "$program" Depends | grep 'libegl1.*libc6' > /dev/null || fail "the program does not name the libraries that it needs"
+dpkg-deb -f "$library" Depends | grep 'lockstep (= .*libhdf5-dev' > /dev/null || fail "the library does not name its parts"
 
 . "$1/tests/package/library_folders.sh"
 [ -z "$(unfit_library_folders "$folder/root")" ] || fail "unpacked programs look for libraries in $(unfit_library_folders "$folder/root")"

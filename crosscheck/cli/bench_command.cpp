@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/rule_by_text.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/judge/check.hpp"
@@ -41,7 +42,7 @@ struct BenchRequest {
     std::vector<std::size_t> counts{50000, 100000, 150000, 200000};
     std::vector<int> radii{1, 4};
     int warm_up = 3;
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     PassRules rules;
     bool gl_only = false, floor = false, no_render = false;
 };
@@ -162,7 +163,9 @@ Timing time_run(const Scene& scene, const Profile& profile, const BenchRequest& 
     CheckOptions check_options;
     check_options.frames = options.run.frames;
     check_options.repeated_frames = 0;
-    check_options.known = known_operations(options.legal, profile);
+    const ShaderUse shaders = shaders_to_run(options.run, scene);
+    check_options.known =
+        known_operations(rule_by_text(options.legal, scene, shaders, options.run.shaders, false).legal, profile);
     Progress progress(fmt::format("bench {}", scene.start.size()), options.run.frames, true);
     check_options.on_frame = [&](int done) {
         checked.push_back(now() - last);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/rule_by_text.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/judge/frame_run.hpp"
@@ -33,7 +34,7 @@ struct CapsuleRequest {
     int frame = 0;
     std::optional<std::string> particle, pixel, item;
     std::string pass;
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     bool hexadecimal = false;
 };
 
@@ -78,11 +79,13 @@ CutCapsule cut_from(FrameRun& run, const CapsuleRequest& options, const std::str
 
 CutCapsule cut_live(const CapsuleRequest& options) {
     const Scene scene = load(options.run);
-    static_cast<void>(shaders_to_run(options.run, scene, options.pixel.has_value()));
+    const ShaderUse shaders = shaders_to_run(options.run, scene, options.pixel.has_value());
+    const Legal legal =
+        rule_by_text(options.legal, scene, shaders, options.run.shaders, options.pixel.has_value()).legal;
     const std::size_t pixel = options.pixel ? pixel_named(*options.pixel, scene) : 0;
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, scene, options.run.shaders);
-    FrameRun run(scene, profile, known_operations(options.legal, profile), options.run.shaders);
+    FrameRun run(scene, profile, known_operations(legal, profile), options.run.shaders);
     const std::string renderer = summary(context.describe()), settings = settings_text(options.run, scene);
     if (!options.pixel)
         return cut_from(run, options, renderer, settings);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "crosscheck/cli/check_request.hpp"
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/part_file.hpp"
+#include "crosscheck/cli/rule_by_text.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/stress_check.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
@@ -313,7 +315,7 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     return pass ? status_agree : status_differ;
 }
 
-int run_scene(const CheckRequest& options) {
+int run_scene(CheckRequest options) {
     if (options.frames.is_part)
         expect_part(options);
     const Scene scene = load(options.run);
@@ -324,6 +326,10 @@ int run_scene(const CheckRequest& options) {
     if (!is_rendered(options))
         compile_unrendered(scene, options.run.shaders);
     const Profile profile = measured_profile(context, scene, options.run.shaders);
+    RuleByText rule = rule_by_text(options.legal, scene, shaders, options.run.shaders, is_rendered(options));
+    options.legal = rule.legal;
+    std::vector<std::string> notes = conversion_notes(profile, scene.switches);
+    std::ranges::move(rule.notes, std::back_inserter(notes));
     std::vector<ShaderWarning> warnings;
     const ShaderWarnings collected(warnings);
     GpuSimulation gpu(scene, options.run.shaders);
@@ -337,7 +343,7 @@ int run_scene(const CheckRequest& options) {
                             summary(context.describe()),
                             describe(profile),
                             settings_text(options.run, scene),
-                            conversion_notes(profile, scene.switches),
+                            std::move(notes),
                             std::move(shaders),
                             {},
                             scene.width},

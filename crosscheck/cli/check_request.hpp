@@ -22,7 +22,7 @@ struct CheckRequest {
     bool heeds_environment = false; ///< where no shard is asked for
     CheckMode mode = CheckMode::resync;
     std::filesystem::path json, junit, images, hashes, report;
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     PassRules rules;
     bool no_render = false;
     bool render = false; ///< asked for by name: then one without particles proves too little

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/rule_by_text.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/record/trace_side.hpp"
@@ -24,7 +25,7 @@ namespace {
 struct DebugRequest {
     RunOptions run;
     std::filesystem::path trace; ///< instead of a scene and GL
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     bool hexadecimal = false;
 };
 
@@ -42,7 +43,8 @@ int debug_scene(const DebugRequest& options) {
         return load(changed);
     };
     const Scene scene = load_with({});
-    static_cast<void>(shaders_to_run(options.run, scene));
+    const ShaderUse shaders = shaders_to_run(options.run, scene);
+    const Legal legal = rule_by_text(options.legal, scene, shaders, options.run.shaders, false).legal;
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
     DebugSetup setup = setup_of(options);
@@ -51,8 +53,8 @@ int debug_scene(const DebugRequest& options) {
     setup.start = [&](const std::vector<std::string>& changes) {
         const Scene changed = load_with(changes);
         const Profile of_scene = with_written_codes(profile, changed, options.run.shaders);
-        return std::make_unique<CollisionDebugRun>(std::make_unique<FrameRun>(
-            changed, of_scene, known_operations(options.legal, of_scene), options.run.shaders));
+        return std::make_unique<CollisionDebugRun>(
+            std::make_unique<FrameRun>(changed, of_scene, known_operations(legal, of_scene), options.run.shaders));
     };
     return debug_run(std::move(setup));
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/rule_by_text.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/judge/frame_run.hpp"
@@ -37,7 +38,7 @@ struct ExplainRequest {
     std::filesystem::path trace; ///< instead of a scene and GL
     std::optional<std::string> particle, texel, pixel, item;
     std::string pass;
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     bool hexadecimal = false;
 };
 
@@ -74,7 +75,9 @@ void explain_scene(const ExplainRequest& options) {
     item_of(options, scene);
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, scene, options.run.shaders);
-    FrameRun frames(scene, profile, known_operations(options.legal, profile), options.run.shaders);
+    const Legal legal =
+        rule_by_text(options.legal, scene, shaders, options.run.shaders, options.pixel.has_value()).legal;
+    FrameRun frames(scene, profile, known_operations(legal, profile), options.run.shaders);
     tell(options, frames, options.run.scene.string(), settings_text(options.run, scene), summary(context.describe()));
     fmt::print("{}", plain_text(shader_diff_text(shaders)));
 }

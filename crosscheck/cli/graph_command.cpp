@@ -27,7 +27,7 @@ struct GraphRequest {
     std::size_t items = 4096, item = 0, seed = 1;
     bool exact = false, quiet = false;
     std::string gl = "auto";
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
 };
 
 GraphPtr graph_of(const GraphRequest& options) { return std::make_shared<const Graph>(load_graph(options.file)); }

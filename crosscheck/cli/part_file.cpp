@@ -62,7 +62,7 @@ CheckRequest read_request(const JsonValue& value) {
     value.check_keys({"trace", "legal", "allow_undefined", "require_hits", "power_at_least"});
     CheckRequest request;
     request.trace = value.at("trace").text();
-    request.legal = static_cast<Legal>(value.at("legal").integer(0, static_cast<int>(Legal::any_order)));
+    request.legal = static_cast<Legal>(value.at("legal").integer(0, static_cast<int>(Legal::by_text)));
     request.rules.allow_undefined = truth(value.at("allow_undefined"));
     request.rules.require_hits = truth(value.at("require_hits"));
     const std::string share = value.at("power_at_least").text();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/part_file.hpp"
+#include "crosscheck/cli/rule_by_text.hpp"
 #include "crosscheck/cli/stress_report.hpp"
 #include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/files/json_text.hpp"
@@ -75,7 +77,8 @@ StressScene run_scene(const StressOptions& options, const ReadStress& read, cons
     GpuSimulation gpu(scene, run.shaders);
     CheckOptions check_options;
     check_options.frames = run.frames;
-    check_options.known = known_operations(options.legal, profile);
+    RuleByText rule = rule_by_text(options.legal, scene, shaders, run.shaders, false);
+    check_options.known = known_operations(rule.legal, profile);
     check_options.stop = &interrupted;
     CheckReport report = check(scene, profile, gpu, check_options);
     const PassRules rules{options.rules.allow_undefined, options.rules.require_hits};
@@ -88,16 +91,17 @@ StressScene run_scene(const StressOptions& options, const ReadStress& read, cons
     about.settings = settings_text(run, scene);
     about.mode = "resync";
     about.notes = conversion_notes(profile, scene.switches);
+    std::ranges::move(rule.notes, std::back_inserter(about.notes));
     note_what_ran(about.shaders.emplace(shaders));
     for (std::string& note : warning_notes(warnings))
         about.notes.push_back(std::move(note));
     about.timed = false;
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
-    about.repeat = command_line("check", run, frames) + legal_option_text(options.legal) + pass_options_text(rules);
+    about.repeat = command_line("check", run, frames) + legal_option_text(rule.legal) + pass_options_text(rules);
     if (report.verdicts && report.verdicts->first)
         about.explain = command_line("explain", run,
                                      place_arguments(report.verdicts->first->place, collision_schema(), scene.width)) +
-                        legal_option_text(options.legal);
+                        legal_option_text(rule.legal);
     const bool pass = passes(report, rules);
     return {0,
             run.scene.stem().string(),

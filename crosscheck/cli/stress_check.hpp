@@ -8,7 +8,7 @@ namespace lockstep {
 
 struct StressOptions {
     RunOptions run; ///< its scene is not looked at
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     PassRules rules; ///< the power asked for is that of all scenes together
     Shard shard;     ///< of the scenes
     std::filesystem::path json;

@@ -17,7 +17,7 @@ namespace lockstep {
 /// What `lockstep check` is asked of a scene of a registered system.
 struct SystemCheck {
     CheckMode mode = CheckMode::resync;
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     PassRules rules;
     std::filesystem::path json, hashes, images, report;
     bool power = false; ///< list the mistakes that would have shown
@@ -40,7 +40,7 @@ struct SystemRender {
 struct SystemBench {
     std::vector<std::size_t> counts;
     int warm_up = 0;
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     PassRules rules;
     bool gl_only = false; ///< neither reference nor check
     bool floor = false;   ///< SystemScene::floor, too

@@ -7,9 +7,13 @@ namespace lockstep {
 
 void add_legal_option(Verb& verb, Legal& legal) {
     verb.add(choice_option<Legal>(
-        "--legal", legal, {{"measured", Legal::measured}, {"glsl", Legal::glsl}, {"any_order", Legal::any_order}},
-        "what differences are judged by: what the driver was measured to do; GLSL's precision rules; "
-        "any order of operations too, for shaders without `precise`"));
+        "--legal", legal,
+        {{"by_text", Legal::by_text},
+         {"measured", Legal::measured},
+         {"glsl", Legal::glsl},
+         {"any_order", Legal::any_order}},
+        "what differences are judged by: what the driver was measured to do, and what a shader's text without "
+        "`precise` leaves open; the first alone; GLSL's precision rules; any order of operations too"));
 }
 
 void add_pass_options(Verb& verb, PassRules& rules) {

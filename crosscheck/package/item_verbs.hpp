@@ -29,7 +29,7 @@ struct SystemItem {
     int frame = 0;
     std::string pass; ///< by name, or by number; empty: the first that runs
     std::string item; ///< its number, or of an image x,y
-    Legal legal = Legal::measured;
+    Legal legal = Legal::by_text;
     bool hexadecimal = false;
 };
 

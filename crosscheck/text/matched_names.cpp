@@ -209,11 +209,11 @@ MatchedNames matched_names(const Examination& of, const StageText& text, const S
 std::optional<text::WrittenPlace> MatchedNames::place(const StageText& text, const StageText& reference,
                                                       text::WrittenPlace place) const {
     using Space = text::WrittenPlace::Space;
-    if (place.space == Space::block) {
+    if (place.is_of_block()) {
         if (!blocks[place.number])
             return {};
         place.number = static_cast<std::uint32_t>(*blocks[place.number]);
-    } else if (place.space == Space::texel) {
+    } else if (place.is_of_image()) {
         place.number = static_cast<std::uint32_t>(images[place.number]);
     } else if (place.space == Space::output) {
         for (std::size_t o = 0; o < outputs.size(); ++o)

@@ -57,7 +57,7 @@ class WitnessedPass {
                 return {};
             place.word = *component;
         } else {
-            place.number = place.space == Space::block ? blocks_[place.number] : images_[place.number];
+            place.number = place.is_of_block() ? blocks_[place.number] : images_[place.number];
         }
         return place;
     }

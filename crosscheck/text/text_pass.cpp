@@ -36,7 +36,10 @@ struct LastDispatch {
 } // namespace
 
 TextDispatch::TextDispatch(const PassText& text, const PassInput& in, const Profile& profile)
-    : text_(text), profile_(profile), frame_(in.frame), input_(text.bind(in, profile)) {}
+    : text_(text), profile_(profile), frame_(in.frame), input_(text.bind(in, profile)) {
+    for (const View& resource : in.before.resources)
+        extents_.push_back(resource.extent);
+}
 
 void TextDispatch::run() const {
     std::call_once(ran_, [&] {
@@ -96,7 +99,27 @@ std::optional<std::uint32_t> TextDispatch::writer(std::uint8_t resource, std::si
             writer = std::max(writer, by[k]);
         }
     }
-    return writer == 0 ? std::nullopt : std::optional(writer - 1);
+    return writer == 0 ? invocation_at(resource, item) : std::optional(writer - 1);
+}
+
+std::optional<std::uint32_t> TextDispatch::invocation_at(std::uint8_t resource, std::size_t item) const {
+    const Extent& extent = extents_[resource];
+    const std::array<std::size_t, 3> at{item % extent.width, item / extent.width % extent.height,
+                                        item / extent.width / extent.height};
+    const std::array<std::uint32_t, 3>& size = text_.program().group;
+    std::size_t group = 0, local = 0;
+    for (std::size_t axis = 3; axis-- > 0;) {
+        if (at[axis] / size[axis] >= input_.groups[axis])
+            return {};
+        group = group * input_.groups[axis] + at[axis] / size[axis];
+        local = local * size[axis] + at[axis] % size[axis];
+    }
+    const auto number = static_cast<std::uint32_t>(group * text_.program().invocations() + local);
+    const text::Invocation found = text_.invocation(input_, number);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (std::size_t{found.group[axis]} * size[axis] + found.local[axis] != at[axis])
+            return {};
+    return number;
 }
 
 std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t resource, std::size_t item,
@@ -132,6 +155,8 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
                 for (const std::size_t from : parts_of_item) {
                     if (std::pair(word.place.space, word.place.number) != place_in(from))
                         continue;
+                    if (word.is_code)
+                        return {};
                     const std::span<const Component> record = text_.record(from);
                     const std::uint64_t begin = item * record.size();
                     const std::size_t place = text_.is_vertex()

@@ -20,7 +20,8 @@ class TextDispatch {
 
     [[nodiscard]] int frame() const { return frame_; }
     [[nodiscard]] const PassText::Input& input() const { return input_; }
-    /// The one invocation that wrote of an item, by its number; nothing: none or several did.
+    /// The one invocation that wrote of an item, by its number, or, where none did, that which stands where the item
+    /// does: it may have been about to. Nothing: several wrote of it, or none stands there.
     [[nodiscard]] std::optional<std::uint32_t> writer(std::uint8_t resource, std::size_t item) const;
     /// Items first to last of a resource, the last excluded, into `after`; what the text does not write is as `before`
     /// has it, and fields that are left out stay so.
@@ -35,11 +36,13 @@ class TextDispatch {
 
   private:
     void run() const;
+    [[nodiscard]] std::optional<std::uint32_t> invocation_at(std::uint8_t resource, std::size_t item) const;
 
     const PassText& text_;
     Profile profile_;
     int frame_;
-    PassText::Input input_; ///< as it was bound
+    PassText::Input input_;       ///< as it was bound
+    std::vector<Extent> extents_; ///< of the state before
     mutable std::once_flag ran_;
     mutable std::vector<std::vector<std::uint32_t>> written_; ///< PassText::Input::words behind it
     mutable text::Writers writers_;

@@ -183,7 +183,8 @@ void Decoder::atomic(const Instruction& at) {
     const std::size_t value = exchanges ? 6 : has_result ? 5 : 3;
     const std::uint32_t operand = value < w.size() ? cell(w[value]) : 0, comparator = exchanges ? cell(w[7]) : 0;
     const std::uint32_t place = of.space == Address::Space::texel ? of.dynamic : offset_cell(of);
-    const std::uint32_t out = has_result ? cell(w[1]) : take_cells(1);
+    const bool is_used = has_result && uses_[w[1]] > 1; // one is where it is made
+    const std::uint32_t out = is_used ? cell(w[1]) : no_cell;
     Step& step = add(of.space == Address::Space::shared  ? code::atomic_shared
                      : of.space == Address::Space::block ? code::atomic_block
                                                          : code::atomic_texel);

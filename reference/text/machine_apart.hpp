@@ -23,11 +23,20 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
                 return out.set(r.read(in_text, std::bit_cast<float>(word)));
         out.set(word);
     };
+    const auto refuse_shared = [&] {
+        refuse(s, "an invocation that shares what it computes is not run apart from others");
+    };
     const auto write = [&](const WrittenPlace& place, const C& value, [[maybe_unused]] bool is_real) {
         C& to = (*written_)[place];
         to = value;
         if constexpr (has_sets<R>)
             to.is_real = is_real;
+    };
+    const auto change = [&](const WrittenPlace& place, Space stored) {
+        if (found({stored, place.number, place.word}) != nullptr)
+            refuse_shared();
+        const bool has_operand = s.n != spv::OpAtomicIIncrement && s.n != spv::OpAtomicIDecrement;
+        (*written_)[place].set(has_operand ? word_at(s.c) : 1U);
     };
     const auto texel = [&](std::uint32_t image, std::uint32_t first,
                            std::uint32_t axes) -> std::optional<std::uint64_t> {
@@ -51,6 +60,8 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
             const Leaf leaf = p_.leaves[s.d + c];
             const std::uint32_t at = word_at(s.b) + leaf.word;
             const std::span<const std::uint32_t> words = memory_.words(s.a);
+            if (found({Space::changed_block, s.a, at}) != nullptr)
+                refuse_shared();
             if (const C* const own = found({Space::block, s.a, at}))
                 *cell(s.out + c) = *own;
             else
@@ -63,6 +74,8 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
             const std::uint32_t at = word_at(s.b) + leaf.word;
             if (at >= memory_.words(s.a).size())
                 continue;
+            if (found({Space::changed_block, s.a, at}) != nullptr)
+                refuse_shared();
             write({Space::block, s.a, at}, *cell(s.c + c), leaf.is_real);
         }
         return true;
@@ -75,7 +88,12 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
             level = static_cast<std::int32_t>(word_at(s.d));
         const Memory::Texel base = memory_.load_texel(image, texel_place(s.b, s.c, 0), level, place(s, 0));
         for (std::uint32_t c = 0; c < s.n; ++c) {
+            if (at && found({Space::changed_texel, image, *at + c}) != nullptr)
+                refuse_shared();
             const C* const own = at ? found({Space::texel, image, *at + c}) : nullptr;
+            if (own != nullptr && memory_.image(image).code != TexelMemory::Code::number)
+                refuse(s,
+                       "an invocation that reads what it wrote of a half or rgba8 image is not run apart from others");
             if (own != nullptr)
                 *cell(s.out + c) = *own;
             else
@@ -85,11 +103,12 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     }
     case code::store_texel: {
         const std::uint32_t image = word_at(s.a);
-        if (memory_.image(image).code != TexelMemory::Code::number)
-            refuse(s, "an invocation that writes a half or rgba8 image is not run apart from others");
         if (const std::optional<std::uint64_t> at = texel(image, s.b, s.d))
-            for (std::uint32_t c = 0; c < s.n && c < memory_.image(image).components; ++c)
+            for (std::uint32_t c = 0; c < s.n && c < memory_.image(image).components; ++c) {
+                if (found({Space::changed_texel, image, *at + c}) != nullptr)
+                    refuse_shared();
                 write({Space::texel, image, *at + c}, *cell(s.c + c), p_.images[image].is_real);
+            }
         return true;
     }
     case code::sample_texel: {
@@ -98,10 +117,23 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
             set_read(*cell(s.out + c), sample[c], p_.images[word_at(s.a)].is_real);
         return true;
     }
-    case code::atomic_shared:
     case code::atomic_block:
-    case code::atomic_texel:
-        refuse(s, "an invocation that shares what it computes is not run apart from others");
+        if (s.out != no_cell)
+            refuse_shared();
+        if (word_at(s.b) < memory_.words(s.a).size())
+            change({Space::changed_block, s.a, word_at(s.b)}, Space::block);
+        return true;
+    case code::atomic_texel: {
+        if (s.out != no_cell)
+            refuse_shared();
+        const std::uint32_t image = word_at(s.a);
+        if (const std::optional<std::uint64_t> at = texel(image, s.b, p_.images[image].shape.axes()))
+            change({Space::changed_texel, image, *at}, Space::texel);
+        return true;
+    }
+    case code::atomic_shared:
+        refuse_shared();
+        return true;
     default:
         return false;
     }

@@ -206,7 +206,7 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
             need(s, s.c, 1);
         if (s.op == code::atomic_texel)
             need(s, s.b, p_.images[cell(s.a)[active_[0]].word()].shape.axes());
-        return forget(1);
+        return forget(s.out != no_cell ? 1 : 0);
     case code::load_texel:
     case code::fetch_texel:
     case code::sample_texel:

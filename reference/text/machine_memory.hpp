@@ -78,7 +78,8 @@ template <class R, int W> void Machine<R, W>::atomic(const Step& s) {
                 ? memory_.atomic_block(s.a, cell(s.b)[l].word(), by, change)
                 : memory_.atomic_texel(cell(s.a)[l].word(),
                                        texel_place(s.b, p_.images[cell(s.a)[l].word()].shape.axes(), l), by, change);
-        cell(s.out)[l].set(before);
+        if (s.out != no_cell)
+            cell(s.out)[l].set(before);
     });
 }
 

@@ -164,6 +164,22 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
         }
         return;
     }
+    case code::atomic_block: // whose result nothing uses (machine_apart.hpp)
+    case code::atomic_texel: {
+        const std::size_t first = noted.operands.size();
+        const bool is_block = s.op == code::atomic_block;
+        const std::uint32_t image = is_block ? 0 : cell(s.a)->word();
+        const std::uint32_t axes = is_block ? 1 : p_.images[image].shape.axes();
+        operand(s.c);
+        for (std::uint32_t axis = 0; axis < axes; ++axis)
+            operand(s.b + axis);
+        const WrittenPlace place = is_block
+                                       ? WrittenPlace{Space::changed_block, s.a, cell(s.b)->word()}
+                                       : WrittenPlace{Space::changed_texel, image, texel_word(image, s.b, axes, 0)};
+        return note(Kind::store, first, s.c, false, place);
+    }
+    case code::atomic_shared:
+        return;
     case code::array_length:
     case code::image_size:
     case code::query_levels:

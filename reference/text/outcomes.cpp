@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <set>
@@ -10,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "reference/stored_half.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/text/glsl_functions.hpp"
 #include "reference/text/machine_apart.hpp"
@@ -51,13 +53,35 @@ std::string_view kept(std::string label) {
 
 bool is_equal(const InvocationOutcome& a, const InvocationOutcome& b) {
     const auto key = [](const WrittenWord& w) {
-        return std::tuple(w.place, w.is_real ? 0U : w.word, w.set.low, w.set.high, w.set.any);
+        return std::tuple(w.place, w.is_real || w.is_code ? 0U : w.word, w.set.low, w.set.high, w.set.any);
     };
     return a.undefined == b.undefined &&
            std::ranges::equal(a.written, b.written, [&](const auto& x, const auto& y) { return key(x) == key(y); });
 }
 
+/// What is stored in the image: of a half or a code either neighbour of what is no such number (GL 4.6, 2.3.5).
+WrittenWord stored(WrittenWord word, const TexelMemory& image) {
+    Interval& set = word.set;
+    if (image.code == TexelMemory::Code::half && word.is_real) {
+        set = stored_half(set, HalfStore::open);
+    } else if (image.code == TexelMemory::Code::unorm8) {
+        const auto code = [](double x) { return 255.0 * std::clamp(x, 0.0, 1.0); };
+        const bool is_open = set.any || std::isnan(set.low); // NaN becomes any code
+        word.word = 0;
+        set = is_open ? Interval{0.0, 255.0} : Interval{std::floor(code(set.low)), std::ceil(code(set.high))};
+        word.is_real = false;
+        word.is_code = true;
+    }
+    return word;
+}
+
 } // namespace
+
+bool WrittenWord::may_be(std::uint32_t bits) const {
+    if (is_code)
+        return set.contains(static_cast<float>(bits));
+    return is_real ? set.contains(std::bit_cast<float>(bits)) : word == bits;
+}
 
 Outcomes::Outcomes(const Program& program) : program_(program) {
     std::map<std::uint32_t, std::size_t> numbers;
@@ -107,8 +131,11 @@ std::vector<InvocationOutcome> Outcomes::of(const Invocation& invocation, std::a
                     if (place.space == WrittenPlace::Space::shared)
                         continue;
                     const Interval set = cell.is_real ? cell.x.legal() : Interval();
-                    one.written.push_back({place, cell.is_real ? std::bit_cast<std::uint32_t>(set.as_float()) : cell.w,
-                                           set, cell.is_real});
+                    WrittenWord word{place, cell.is_real ? std::bit_cast<std::uint32_t>(set.as_float()) : cell.w, set,
+                                     cell.is_real};
+                    one.written.push_back(place.space == WrittenPlace::Space::texel
+                                              ? stored(std::move(word), bindings.images[place.number])
+                                              : std::move(word));
                 }
             for (InvocationOutcome& other : found)
                 if (is_equal(other, one)) {

@@ -16,9 +16,10 @@ namespace lockstep::text {
 /// A word that an invocation wrote, and what it may legally be.
 struct WrittenWord {
     WrittenPlace place;
-    std::uint32_t word = 0; ///< of an integer; of a float one of the set
-    Interval set;           ///< of a float
-    bool is_real = false;
+    std::uint32_t word = 0; ///< of an integer; of a float one of the set; of a code 0
+    Interval set;           ///< of a float; of a code of an rgba8 image the numbers from 0 to 255 that it may be
+    bool is_real = false, is_code = false;
+    [[nodiscard]] bool may_be(std::uint32_t bits) const;
 };
 
 /// One of the ways an invocation may go.
@@ -41,7 +42,7 @@ class Outcomes {
 
     /// All outcomes of an invocation that shares nothing with others but what it reads. `known`: in the stage that the
     /// text runs in. `inputs`: of another stage than compute. What `bindings` name stays as it is. Throws Error by
-    /// FILE:LINE for what is not followed by sets: barriers, atomic operations, stores to half and rgba8 images.
+    /// FILE:LINE for what is not followed by sets: barriers, atomic operations whose result is used.
     [[nodiscard]] std::vector<InvocationOutcome> of(const Invocation& invocation, std::array<std::uint32_t, 3> groups,
                                                     const Bindings& bindings, PassStage stage, const Profile& profile,
                                                     const KnownOperations& known,

@@ -25,7 +25,7 @@ enum Own : std::uint16_t {
     store_shared,
     load_block, ///< of block a, from offset at b; d: leaves
     store_block,
-    atomic_shared, ///< SPIR-V opcode n on offset at b: operand c, comparator d; out: the value before
+    atomic_shared, ///< SPIR-V opcode n on offset at b: operand c, comparator d; out: the value before, or no_cell
     atomic_block,  ///< the same of block a
     atomic_texel,  ///< the same of image a's texel at b
     array_length,  ///< of block a

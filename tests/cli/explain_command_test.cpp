@@ -147,7 +147,7 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
     CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) == two);
     CHECK(told({"--frame", "1", "--pixel", "1,1", "--texel", "1,1"}) == two);
     CHECK(told({"--frame", "1", "--particle", "1", "--legal", "loose"}) ==
-          "--legal: 'loose' is not one of measured, glsl, any_order (lockstep explain --help says more)");
+          "--legal: 'loose' is not one of by_text, measured, glsl, any_order (lockstep explain --help says more)");
     for (const char* wrong : {"300", "-1", "x", "1.5", ""})
         CHECK(told({"--frame", "1", "--particle", wrong}) ==
               "there is no particle '" + std::string(wrong) + "'; scene has 0 to 299");

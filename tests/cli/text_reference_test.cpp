@@ -149,6 +149,58 @@ TEST_CASE("a shader without precise is legal where its own text leaves open what
     CHECK_THAT(check("physics.json", {"--shaders", precise}).out, Contains("verdict   DIVERGENT"));
 }
 
+TEST_CASE("an item that a shader without precise may come to write, and did not, is open") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const std::string sum = "hashed(add(mul(s, rd1), mul(s, rd2)))"; // whether a grain comes out hangs on its last bit
+    const auto sprayed = [&](const std::string& name, const std::string& by) {
+        std::filesystem::create_directory(folder.path() / name);
+        folder.write(name + "/random.glsl", replaced(shipped("dust/random.glsl"), sum, by));
+        return run_lockstep({"check", "data/scenes/dust/catalogue/static_spray.json", "--preset", "corrected",
+                             "--particles", "4000", "--frames", "4", "--no-render", "--shaders",
+                             (folder.path() / name).string(), "--gl", software_gl()});
+    };
+    const Outcome legal = sprayed("free", "hashed(s * (rd1 + rd2))");
+    INFO(legal.out << legal.err);
+    CHECK(legal.status == 0);
+    CHECK_THAT(legal.out, Contains("verdict   LEGAL"));
+    CHECK_THAT(sprayed("slip", "hashed(s * (rd1 + rp1))").out, Contains("verdict   DIVERGENT"));
+}
+
+TEST_CASE("collision: floats without precise are legal in any order, unless they are held to what was measured") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const auto check = [&](const std::string& text, const std::vector<std::string>& more) {
+        folder.write("collision_pass.vert", text);
+        if (text.find("out_Position") != std::string::npos)
+            folder.write("collision_pass.geom", ""); // it needs none
+        else
+            std::filesystem::remove(folder.path() / "collision_pass.geom");
+        return run_lockstep(joined({"check", "data/scenes/lattice.json", "--particles", "500", "--frames", "4",
+                                    "--no-render", "--shaders", folder.path().string(), "--gl", software_gl()},
+                                   more));
+    };
+    std::ifstream stream("tests/collision/right_shaders/factored_tick.vert"); // v * (speed * tick)
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const Outcome legal = check(text, {});
+    INFO(legal.out << legal.err);
+    CHECK(legal.status == 0);
+    CHECK_THAT(legal.out, Contains("verdict   LEGAL") && Contains("note      collision_pass.vert:") &&
+                              Contains("floats without `precise`, which GL may fuse or take in any order"));
+    const Outcome held = check(text, {"--legal", "measured"});
+    CHECK(held.status == 1);
+    CHECK_THAT(held.out, Contains("verdict   DIVERGENT") && Contains("--legal measured"));
+    CHECK(check(replaced(text, " * u_Tick", " * (1.001 * u_Tick)"), {}).status == 1);
+    // What says `precise` has the order that it asks for.
+    const Outcome precise = check(replaced(shipped("collision/collision_pass.vert"), "v_Speed = ls_length(temp);",
+                                           "v_Speed = sqrt(temp.z * temp.z + (temp.y * temp.y + temp.x * temp.x));"),
+                                  {});
+    CHECK(precise.status == 1);
+    CHECK_THAT(precise.out, Contains("verdict   DIVERGENT") && !Contains("floats without `precise`"));
+}
+
 TEST_CASE("a wrong shader stays DIVERGENT where its own text has more ways than are followed") {
     if (!have_software_gl())
         return;

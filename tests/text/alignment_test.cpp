@@ -121,6 +121,33 @@ TEST_CASE("trace: a row of a function has the lines of the calls around it") {
     CHECK(is_found);
 }
 
+TEST_CASE("alignment: the operand of an atomic operation is a word of its invocation") {
+    const std::string right = "float a = x[1] * 1.5;\natomicAdd(n[1], uint(a));\nx[0] = a;";
+    const std::string counters = "layout(std430, binding = 1) buffer Counters { uint n[4]; };";
+    const auto run_of = [&](const std::string& statements, std::span<const text::ForcedRow> forced) {
+        const Text text(statements, counters);
+        std::vector<std::uint32_t> words = words_of({0, 4}), numbers{1, 2, 3, 4};
+        text::Bindings bindings;
+        bindings.blocks.emplace_back(words);
+        bindings.blocks.emplace_back(numbers);
+        text::TracedRun run;
+        run.words =
+            text::run_traced(text.kernel.program, {}, {1, 1, 1}, bindings, named_profile("strict"), forced, run.trace);
+        CHECK(numbers == std::vector<std::uint32_t>{1, 2, 3, 4});
+        return run;
+    };
+    for (const auto& [what, by] : {std::pair{"uint(a)", "uint(a) + 1u"}, {"n[1]", "n[2]"}}) {
+        const std::string wrong = replaced(right, what, by);
+        const text::TracedRun of_wrong = run_of(wrong, {});
+        const auto found = text::suspects_of(of_wrong, run_of(right, {}), [&](std::span<const text::ForcedRow> forced) {
+            return run_of(wrong, forced).words;
+        });
+        INFO(by);
+        REQUIRE_FALSE(found.empty());
+        CHECK(of_wrong.trace.rows[found.front().row].line == 7);
+    }
+}
+
 TEST_CASE("trace: an invocation that shares what it computes is refused by its line") {
     CHECK_THROWS_WITH(Text("s = 1.0; barrier(); x[0] = s;", "shared float s;").run({0}),
                       Catch::Contains("kernel.comp:5") && Catch::Contains("is not run apart from others"));

@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -200,6 +202,89 @@ TEST_CASE("text outcomes: operands that may have no result leave the outcome und
         INFO(expression);
         CHECK(set_of(expression, {0, -1.0F, 1.5F}).any);
     }
+}
+
+TEST_CASE("text outcomes: an atomic operation whose result nothing uses leaves the rest of its invocation followed") {
+    const std::string counter = "layout(std430, binding = 1) buffer Counter { uint number; uint others[]; };\n";
+    const Statements text("x[0] = x[1] * x[2] + x[3]; atomicAdd(number, 7u);", counter);
+    std::vector<std::uint32_t> words = words_of({0, 1.1F, 2.3F, 3.7F}), count{5, 0};
+    text::Bindings bindings;
+    bindings.blocks.emplace_back(words);
+    bindings.blocks.emplace_back(count);
+    const auto found = text.of.of({}, {1, 1, 1}, bindings, PassStage::compute, named_profile("strict"), {});
+    REQUIRE(found.size() == 1);
+    REQUIRE(found[0].written.size() == 2);
+    CHECK_FALSE(found[0].written[0].set.is_point());
+    CHECK(found[0].written[1].place.space == text::WrittenPlace::Space::changed_block);
+    CHECK(found[0].written[1].word == 7);
+    CHECK(count == std::vector<std::uint32_t>{5, 0});
+    for (const char* const statements :
+         {"x[0] = float(atomicAdd(number, 1u));", "atomicAdd(number, 1u); x[0] = float(number);",
+          "others[0] = 3u; atomicAdd(others[0], 1u);", "atomicAdd(others[0], 1u); others[0] = 3u;"}) {
+        INFO(statements);
+        const Statements refused(statements, counter);
+        CHECK_THROWS_WITH(refused.of.of({}, {1, 1, 1}, bindings, PassStage::compute, named_profile("strict"), {}),
+                          Contains("kernel.comp:6") && Contains("is not run apart from others"));
+    }
+}
+
+TEST_CASE("text outcomes: a texel of codes or halves is either neighbour of what is stored, and no other") {
+    struct Stored {
+        std::string value;
+        std::vector<std::uint32_t> codes; ///< that it may become
+    };
+    for (const Stored& one : {Stored{"x[1]", {51, 52}},
+                              {"0.0", {0}},
+                              {"1.0", {255}},
+                              {"-3.0", {0}},
+                              {"0.4999", {127, 128}},
+                              {"127.0 * x[2]", {126, 127, 128}},
+                              {"x[1] / 0.0 - x[1] / 0.0", {0, 128, 255}}}) {
+        INFO(one.value);
+        const Statements text("imageStore(codes, ivec2(0), vec4(" + one.value + ", 0.25, 0, 0));",
+                              "layout(rgba8, binding = 0) uniform image2D codes;");
+        std::vector<std::uint32_t> words = words_of({0, 0.2F, 1.0F / 255.0F}), codes(4);
+        words.resize(16);
+        text::Bindings bindings;
+        bindings.blocks.emplace_back(words);
+        bindings.images.push_back({.code = text::TexelMemory::Code::unorm8, .words = codes});
+        const auto found = text.of.of({}, {1, 1, 1}, bindings, PassStage::compute, named_profile("strict"), {});
+        REQUIRE(found.size() == 1);
+        REQUIRE(found[0].written.size() == 4);
+        for (std::uint32_t code = 0; code < 256; ++code) {
+            const bool is_listed = std::find(one.codes.begin(), one.codes.end(), code) != one.codes.end();
+            if (is_listed || one.codes.size() < 3)
+                CHECK(found[0].written[0].may_be(code) == is_listed);
+        }
+        CHECK(found[0].written[1].may_be(63));
+        CHECK(found[0].written[1].may_be(64));
+        CHECK_FALSE(found[0].written[1].may_be(65));
+    }
+    const Statements halves("imageStore(halves, ivec2(0), vec4(x[1], 0.25, x[1] * x[1], 0));",
+                            "layout(rgba16f, binding = 0) uniform image2D halves;");
+    std::vector<std::uint32_t> words = words_of({0, 0.1F}), texel(4);
+    words.resize(16);
+    text::Bindings bindings;
+    bindings.blocks.emplace_back(words);
+    bindings.images.push_back({.code = text::TexelMemory::Code::half, .words = texel});
+    const auto found = halves.of.of({}, {1, 1, 1}, bindings, PassStage::compute, named_profile("strict"), {});
+    REQUIRE(found.size() == 1);
+    REQUIRE(found[0].written.size() == 4);
+    CHECK(found[0].written[0].set.low == 0.0999755859375);
+    CHECK(found[0].written[0].set.high == 0.10003662109375);
+    CHECK(found[0].written[1].set.is_point());
+    CHECK_FALSE(found[0].written[2].may_be(std::bit_cast<std::uint32_t>(0.02F)));
+}
+
+TEST_CASE("text outcomes: what is read back of a texel of codes is refused by its line") {
+    const Statements text("imageStore(codes, ivec2(0), vec4(x[1])); x[0] = imageLoad(codes, ivec2(0)).x;",
+                          "layout(rgba8, binding = 0) uniform image2D codes;");
+    std::vector<std::uint32_t> words = words_of({0, 0.2F}), codes(4);
+    text::Bindings bindings;
+    bindings.blocks.emplace_back(words);
+    bindings.images.push_back({.code = text::TexelMemory::Code::unorm8, .words = codes});
+    CHECK_THROWS_WITH(text.of.of({}, {1, 1, 1}, bindings, PassStage::compute, named_profile("strict"), {}),
+                      Contains("kernel.comp:5") && Contains("reads what it wrote of a half or rgba8 image"));
 }
 
 TEST_CASE("text outcomes: what invocations share is refused by its line") {

@@ -20,7 +20,7 @@ class TextWorlds : public Worlds<PlainArithmetic> {
   public:
     TextWorlds(const Profile& profile, const KnownOperations& known)
         : Worlds<PlainArithmetic>(PlainArithmetic(profile), known, profile.other_orders),
-          of_orders_(PlainArithmetic(profile), {.sums = false, .subnormals = known.subnormals}) {}
+          of_orders_(PlainArithmetic(profile), {.sums = true, .subnormals = known.subnormals}) {}
 
     /// The operations from here on are those of a line of the text.
     void set_place(const Site& line, bool is_precise) {
@@ -29,14 +29,16 @@ class TextWorlds : public Worlds<PlainArithmetic> {
         set_free(!is_precise);
     }
     [[nodiscard]] bool is_precise() const { return is_precise_; }
-    /// What a sum may be besides, whose terms may be taken in another order; a port of more digits may have the sum
-    /// itself.
+    /// A sum whose terms may be taken in another order; a port of more digits may have the sum itself. Terms that are
+    /// products may have a factor taken out, which rounds the result, and not what cancels.
     Real in_any_order(Real sum, std::span<const Interval> terms) {
         Interval all = lockstep::any_order_sum(of_orders_, terms);
+        if (!all.any && !all.is_point())
+            all = interval::to_floats(interval::widen(all, static_cast<double>(terms.size() - 1)));
         if (constants_are_wide_ && !all.any)
             all = interval::hull(
                 all, interval::to_floats(std::accumulate(terms.begin(), terms.end(), Interval(0.0F), interval::add)));
-        return make({sum}, [&](const auto&) { return interval::hull(sum.set(), all); });
+        return make({sum}, [&](const auto&) { return all; });
     }
     /// What is left of `a` by `divisor`, which lies between 0 and that, but for what the division rounds.
     Real rest_of(Real rest, Real a, Real divisor) {

@@ -95,6 +95,24 @@ TEST_CASE("text outcomes: what no order and no fusing changes is one float") {
     CHECK_FALSE(set_of("x[1] + x[2]", {0, 1.0F, 0x1p-30F}).is_point());
 }
 
+TEST_CASE("text outcomes: a sum without precise is what some order of its terms gives") {
+    const Interval cancels = set_of("(x[1] + 1e10) - 1e10", {0, 0.5F});
+    CHECK(cancels.contains(0.0F));
+    CHECK(cancels.contains(0.5F));
+    CHECK(cancels.low > -1e-3);
+    CHECK(cancels.high < 0.501);
+    const Interval upwards = set_of("(x[1] + 1e10) - 1e10", {0, 700.0F}); // 1,024 is between floats there
+    CHECK(upwards.contains(1024.0F));
+    CHECK(upwards.contains(700.0F));
+    CHECK_FALSE(upwards.contains(1100.0F));
+    CHECK_FALSE(upwards.contains(600.0F));
+    const float a = 1.1F, b = 2.3F, c = -3.4F;
+    const Interval sum = set_of("x[1] + x[2] + x[3]", {0, a, b, c});
+    for (const float order : {(a + b) + c, (a + c) + b, (b + c) + a})
+        CHECK(sum.contains(order));
+    CHECK(sum.high - sum.low < 1e-6);
+}
+
 TEST_CASE("text outcomes: built-in functions have GLSL's precision around the exact result") {
     const std::vector<Function> functions{
         {"exp(x[1])", [](double x, double) { return std::exp(x); }, -20, 20, 100, 0},

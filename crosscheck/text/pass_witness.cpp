@@ -56,6 +56,8 @@ class WitnessedPass {
             if (!component)
                 return {};
             place.word = *component;
+        } else if (place.space == Space::shared) {
+            return {};
         } else {
             place.number = place.is_of_block() ? blocks_[place.number] : images_[place.number];
         }

@@ -10,6 +10,7 @@
 
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/bound_stage.hpp"
+#include "crosscheck/text/group_witness.hpp"
 #include "crosscheck/text/matched_names.hpp"
 #include "crosscheck/text/word_comparison.hpp"
 #include "reference/model/error.hpp"
@@ -189,6 +190,42 @@ bool holds_integers(const text::Program& program) {
            std::ranges::any_of(program.images, [](const text::ImageUniform& image) { return !image.is_real; });
 }
 
+/// Groups of a few of the invocations; the first few where they are not known.
+std::vector<std::uint32_t> groups_of(std::span<const ItemWriters> writers, const BoundStage& stage) {
+    constexpr std::uint32_t most = 3;
+    std::set<std::uint32_t> groups;
+    for (const ItemWriters& by : writers)
+        groups.insert(by.wrong.value_or(by.reference.value_or(0)) / stage.program.invocations());
+    const std::uint32_t all = stage.groups[0] * stage.groups[1] * stage.groups[2];
+    for (std::uint32_t group = 0; writers.empty() && group < std::min(all, most); ++group)
+        groups.insert(group);
+    std::vector<std::uint32_t> some(groups.begin(), groups.end());
+    some.resize(std::min<std::size_t>(some.size(), most));
+    return some;
+}
+
+/// Lines of the text that have no counterpart in the reference.
+std::vector<WitnessLine> lines_of(const StageText& text, const StageText& reference, const BothRuns& both,
+                                  const BoundStage& own, const BoundStage& right, std::span<const ComparedWords> all,
+                                  const WordComparison& compared) {
+    const SomeWriters some = some_writers(both, all, compared);
+    const auto common = [&](const text::WrittenPlace& place) { return both.names().place(text, reference, place); };
+    const auto line_in = [](const StageText& of) {
+        return [&of](std::uint32_t line) { return line_text(*of.source, line); };
+    };
+    if (shares(text.program) || shares(reference.program))
+        return group_witness_lines(own, right, groups_of(some.wrong, own), common, line_in(text), line_in(reference));
+    const auto runs_of = [](const BoundStage& bound) {
+        return [&bound](std::uint32_t invocation, std::span<const text::ForcedRow> forced) {
+            return bound.traced(invocation, forced);
+        };
+    };
+    return witness_lines({text.program, runs_of(own),
+                          [](const text::WrittenPlace& place) { return std::optional(place); }, line_in(text)},
+                         {reference.program, runs_of(right), common, line_in(reference)}, some.wrong, some.right,
+                         [](std::string_view) { return true; });
+}
+
 } // namespace
 
 TextComparison compare_texts(const Examination& of, const StageText& text, const StageText& reference,
@@ -235,20 +272,7 @@ TextComparison compare_texts(const Examination& of, const StageText& text, const
         for (const ComparedWord& one : first_of_each(*words, most_lines - made.first.size()))
             made.first.push_back(line_of(text, own, both, one));
     if (made.differing > made.legal) {
-        const SomeWriters some = some_writers(both, all, compared);
-        const auto witnessed = [](const StageText& one, const BoundStage& bound, auto common) {
-            return WitnessedText{one.program,
-                                 [&bound](std::uint32_t invocation, std::span<const text::ForcedRow> forced) {
-                                     return bound.traced(invocation, forced);
-                                 },
-                                 std::move(common),
-                                 [&one](std::uint32_t line) { return line_text(*one.source, line); }};
-        };
-        made.lines = witness_lines(
-            witnessed(text, own, [](const text::WrittenPlace& place) { return std::optional(place); }),
-            witnessed(reference, right,
-                      [&](const text::WrittenPlace& place) { return both.names().place(text, reference, place); }),
-            some.wrong, some.right, [](std::string_view) { return true; });
+        made.lines = lines_of(text, reference, both, own, right, all, compared);
     } else if (of.integers == 0 && holds_integers(text.program)) {
         made.weak = "integers of arrays and images are 0; --integers 100 makes up others";
     }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "reference/subnormals.hpp"
+#include "reference/text/group_memory.hpp"
 #include "reference/text/machine_checks.hpp"
 #include "reference/text/text_machine.hpp"
 
@@ -72,14 +73,17 @@ GroupState state_of(const Program& program, std::span<const std::unique_ptr<Run>
     return GroupState::stuck;
 }
 
-/// The invocations of a group that has barriers or shared variables, from barrier to barrier.
-void run_group(const Program& program, Memory& memory, std::span<const std::unique_ptr<Run>> parts,
-               std::span<const Invocation> invocations) {
+/// The invocations of a group that has barriers or shared variables, from barrier to barrier. `before_each()`: before
+/// each stretch between two barriers.
+template <class BeforeEach> void run_group(const Program& program, Memory& memory,
+                                           std::span<const std::unique_ptr<Run>> parts,
+                                           std::span<const Invocation> invocations, const BeforeEach& before_each) {
     memory.start_group(invocations.front().number / program.invocations());
     for (std::size_t part = 0; part < parts.size(); ++part)
         parts[part]->start(
             invocations.subspan(part * width, std::min<std::size_t>(width, invocations.size() - part * width)));
     for (;;) {
+        before_each();
         for (const std::unique_ptr<Run>& part : parts)
             part->run();
         if (state_of(program, parts, memory.findings()) != GroupState::waiting)
@@ -118,7 +122,7 @@ bool run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
         if (waiting.empty())
             return;
         if (is_joint) {
-            run_group(program, memory, parts, waiting);
+            run_group(program, memory, parts, waiting, [] {});
         } else {
             parts.front()->start(waiting);
             parts.front()->run();
@@ -154,6 +158,58 @@ bool run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
                });
     });
     return races.has_handed_on();
+}
+
+GroupMemory remembered_group(const Program& program, const std::array<std::uint32_t, 3>& groups,
+                             const Bindings& bindings, const Profile& profile, std::uint32_t group) {
+    constexpr std::size_t most_words = std::size_t{1} << 24U;
+    const FlushSubnormals guard{profile.compute_flush_subnormals,
+                                profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
+    GroupMemory made;
+    std::vector<std::vector<std::uint32_t>> words; // several blocks may have one's
+    words.reserve(bindings.blocks.size() + bindings.images.size());
+    Bindings own = bindings;
+    for (std::size_t b = 0; b < bindings.blocks.size(); ++b) {
+        words.emplace_back(bindings.blocks[b].begin(), bindings.blocks[b].end());
+        own.blocks[b] = words.back();
+        for (std::size_t a = 0; a < b; ++a)
+            if (bindings.blocks[a].data() == bindings.blocks[b].data())
+                own.blocks[b] = own.blocks[a].first(bindings.blocks[b].size());
+    }
+    for (std::size_t i = 0; i < bindings.images.size(); ++i) {
+        words.emplace_back(bindings.images[i].words.begin(), bindings.images[i].words.end());
+        own.images[i].words = words.back();
+    }
+    Findings ignored;
+    TextValues values(profile);
+    Memory memory(program, own, ignored, nullptr);
+    const std::uint32_t size = program.invocations();
+    std::vector<std::unique_ptr<Run>> parts;
+    std::vector<Invocation> invocations;
+    for (std::uint32_t i = 0; i < size; ++i) {
+        if (i % width == 0) {
+            constexpr std::uint32_t most_branches = 50'000'000;
+            parts.push_back(std::make_unique<Run>(values, program, memory, own, groups, most_branches));
+        }
+        invocations.push_back(invocation_of(program, groups, group * size + i));
+    }
+    std::size_t kept = 0;
+    const auto remember = [&] {
+        GroupMemory::Moment& now = made.moments.emplace_back();
+        for (const std::span<std::uint32_t>& block : own.blocks)
+            now.words.emplace_back(block.begin(), block.end());
+        for (const TexelMemory& image : own.images)
+            now.words.emplace_back(image.words.begin(), image.words.end());
+        for (std::uint32_t w = 0; w < program.shared; ++w)
+            now.shared.push_back(memory.load_shared(w, {}));
+        for (const std::vector<std::uint32_t>& one : now.words)
+            kept += one.size();
+        if (kept + now.shared.size() > most_words)
+            throw Error(fmt::format("group {}: its barriers are too many to keep what lies between them", group));
+    };
+    run_group(program, memory, parts, invocations, remember);
+    remember();
+    return made;
 }
 
 } // namespace lockstep::text

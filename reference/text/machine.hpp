@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -55,6 +56,9 @@ template <class R, int W> class Machine {
         forced_ = forced;
         made_by_.assign(cells_.size(), 0);
     }
+    /// Of a traced reading whose invocation is one of a group that shares: is called at each barrier, and has memory be
+    /// what the others leave there. False: it ends there.
+    void meet(std::function<bool()> others) { others_ = std::move(others); }
     /// At most W.
     void start(std::span<const Invocation> invocations);
     /// Until each has ended, or waits at a barrier.
@@ -164,6 +168,7 @@ template <class R, int W> class Machine {
     // Memory: machine_memory.hpp; of an invocation that is run apart: machine_apart.hpp.
     void memory(const Step& s);
     bool memory_apart(const Step& s);
+    WrittenPlace atomic_place(const Step& s); ///< that an atomic operation changes
     // What becomes of what, of a traced reading: machine_trace.hpp.
     void note_operands(const Step& s);
     void note_results();
@@ -230,6 +235,7 @@ template <class R, int W> class Machine {
     std::array<std::uint32_t, W> vertices_{};
     std::array<std::uint8_t, W> is_discarded_{};
     WrittenWords<R>* written_ = nullptr;
+    std::function<bool()> others_; ///< empty: it shares nothing
     Trace* noted_ = nullptr;
     std::span<const ForcedRow> forced_;
     struct PendingRow {

@@ -8,6 +8,17 @@
 /// stays as it is, so that the invocation can be run again.
 namespace lockstep::text {
 
+template <class R, int W> WrittenPlace Machine<R, W>::atomic_place(const Step& s) {
+    using Space = WrittenPlace::Space;
+    if (s.op == code::atomic_shared)
+        return {Space::shared, 0, cell(s.b)->word()};
+    if (s.op == code::atomic_block)
+        return {others_ ? Space::block : Space::changed_block, s.a, cell(s.b)->word()};
+    const std::uint32_t image = cell(s.a)->word();
+    return {others_ ? Space::texel : Space::changed_texel, image,
+            first_word(memory_.image(image), texel_place(s.b, p_.images[image].shape.axes(), 0))};
+}
+
 /// Returns false for steps that are the same in every reading.
 template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     static_assert(W == 1);
@@ -48,7 +59,12 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     case code::load_shared:
         for (std::uint32_t c = 0; c < s.n; ++c) {
             const C* const own = found({Space::shared, 0, word_at(s.b) + c});
-            *cell(s.out + c) = own != nullptr ? *own : C{};
+            if (own != nullptr)
+                *cell(s.out + c) = *own;
+            else if constexpr (has_sets<R>)
+                *cell(s.out + c) = C{};
+            else
+                cell(s.out + c)->set(memory_.load_shared(word_at(s.b) + c, place(s, 0)));
         }
         return true;
     case code::store_shared:
@@ -117,23 +133,35 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
             set_read(*cell(s.out + c), sample[c], p_.images[word_at(s.a)].is_real);
         return true;
     }
+    case code::atomic_shared:
     case code::atomic_block:
-        if (s.out != no_cell)
-            refuse_shared();
-        if (word_at(s.b) < memory_.words(s.a).size())
-            change({Space::changed_block, s.a, word_at(s.b)}, Space::block);
-        return true;
     case code::atomic_texel: {
-        if (s.out != no_cell)
+        if constexpr (!has_sets<R>)
+            if (others_) {
+                const WrittenPlace at = atomic_place(s);
+                const std::span<const std::uint32_t> words = at.space == Space::block   ? memory_.words(at.number)
+                                                             : at.space == Space::texel ? memory_.image(at.number).words
+                                                                                        : std::span<std::uint32_t>();
+                const C* const own = found(at);
+                const std::uint32_t before = own != nullptr ? own->word()
+                                             : at.space == Space::shared
+                                                 ? memory_.load_shared(word_at(s.b), place(s, 0))
+                                             : at.word < words.size() ? words[at.word]
+                                                                      : 0U;
+                (*written_)[at].set(changed(s, before, 0));
+                if (s.out != no_cell)
+                    cell(s.out)->set(before);
+                return true;
+            }
+        if (s.out != no_cell || s.op == code::atomic_shared)
             refuse_shared();
-        const std::uint32_t image = word_at(s.a);
-        if (const std::optional<std::uint64_t> at = texel(image, s.b, p_.images[image].shape.axes()))
-            change({Space::changed_texel, image, *at}, Space::texel);
+        const bool is_inside_memory = s.op == code::atomic_block
+                                          ? word_at(s.b) < memory_.words(s.a).size()
+                                          : texel(word_at(s.a), s.b, p_.images[word_at(s.a)].shape.axes()).has_value();
+        if (is_inside_memory)
+            change(atomic_place(s), s.op == code::atomic_block ? Space::block : Space::texel);
         return true;
     }
-    case code::atomic_shared:
-        refuse_shared();
-        return true;
     default:
         return false;
     }

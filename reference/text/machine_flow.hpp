@@ -218,12 +218,18 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
             active([&](Lane l) { memory_.races()->fence(s.a, invocations_[l].number); });
         break;
     default: // a barrier
-        if constexpr (runs_apart<R>)
-            refuse(s, "an invocation that shares what it computes is not run apart from others");
-        active([&](Lane l) {
-            state_[l] = State::waiting;
-            pc_[l] = at_;
-        });
+        if constexpr (runs_apart<R>) {
+            if (!others_)
+                refuse(s, "an invocation that shares what it computes is not run apart from others");
+            if (others_())
+                break;
+            state_[0] = State::ended;
+        } else {
+            active([&](Lane l) {
+                state_[l] = State::waiting;
+                pc_[l] = at_;
+            });
+        }
         gather();
     }
 }

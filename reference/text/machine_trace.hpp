@@ -17,6 +17,12 @@ inline bool takes_reals(std::uint16_t op) {
     return (op >= spv::OpFOrdEqual && op <= spv::OpFUnordGreaterThanEqual) || op == spv::OpIsNan || op == spv::OpIsInf;
 }
 
+/// Whether a word is a float of a usual size, or an integer beyond 2^29.
+inline bool looks_real(std::uint32_t bits) {
+    const std::uint32_t exponent = bits >> 23U & 0xffU;
+    return exponent > 0x40 && exponent < 0xc0;
+}
+
 /// Whether the result is a float.
 inline bool makes_real(std::uint16_t op) {
     if (op >= code::extended) {
@@ -136,7 +142,40 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
         return;
     case code::load_shared:
     case code::store_shared:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const bool is_load = s.op == code::load_shared;
+            const std::size_t first = noted.operands.size();
+            if (!is_load)
+                operand(s.c + c);
+            operand(s.b);
+            note(is_load ? Kind::load : Kind::store, first, is_load ? s.out + c : s.c + c, false,
+                 {Space::shared, 0, cell(s.b)->word() + c});
+        }
         return;
+    case code::atomic_shared:
+    case code::atomic_block:
+    case code::atomic_texel: {
+        const WrittenPlace at = atomic_place(s);
+        const bool has_value =
+            s.n != spv::OpAtomicLoad && s.n != spv::OpAtomicIIncrement && s.n != spv::OpAtomicIDecrement;
+        const auto operands_of_place = [&] {
+            const std::uint32_t axes = s.op == code::atomic_texel ? p_.images[cell(s.a)->word()].shape.axes() : 1;
+            for (std::uint32_t axis = 0; axis < axes; ++axis)
+                operand(s.b + axis);
+        };
+        if (s.n != spv::OpAtomicLoad) {
+            const std::size_t first = noted.operands.size();
+            if (has_value)
+                operand(s.c);
+            operands_of_place();
+            note(Kind::store, first, has_value ? s.c : s.b, false, at);
+        }
+        if (s.out == no_cell)
+            return;
+        const std::size_t first = noted.operands.size();
+        operands_of_place();
+        return note(Kind::load, first, s.out, false, at);
+    }
     case code::load_texel:
     case code::fetch_texel:
     case code::sample_texel:
@@ -164,22 +203,6 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
         }
         return;
     }
-    case code::atomic_block: // whose result nothing uses (machine_apart.hpp)
-    case code::atomic_texel: {
-        const std::size_t first = noted.operands.size();
-        const bool is_block = s.op == code::atomic_block;
-        const std::uint32_t image = is_block ? 0 : cell(s.a)->word();
-        const std::uint32_t axes = is_block ? 1 : p_.images[image].shape.axes();
-        operand(s.c);
-        for (std::uint32_t axis = 0; axis < axes; ++axis)
-            operand(s.b + axis);
-        const WrittenPlace place = is_block
-                                       ? WrittenPlace{Space::changed_block, s.a, cell(s.b)->word()}
-                                       : WrittenPlace{Space::changed_texel, image, texel_word(image, s.b, axes, 0)};
-        return note(Kind::store, first, s.c, false, place);
-    }
-    case code::atomic_shared:
-        return;
     case code::array_length:
     case code::image_size:
     case code::query_levels:
@@ -235,6 +258,8 @@ template <class R, int W> void Machine<R, W>::note_results() {
                 if (one.row == row)
                     cell(pending.cell)->set(one.bits);
         pending.row.bits = cell(pending.cell)->word();
+        if (pending.row.place.space == WrittenPlace::Space::shared) // which has no type here
+            pending.row.is_real = pending.row.is_real || tracing::looks_real(pending.row.bits);
         noted_->rows.push_back(pending.row);
         if (pending.is_result)
             made_by_[pending.cell] = row + 1;

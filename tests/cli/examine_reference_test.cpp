@@ -167,6 +167,41 @@ TEST_CASE("examine --reference: what groups share is held to the reference's bit
     CHECK_THAT(bits.out, Contains("note      ") && Contains(" words are held to the reference's bits: shader "));
 }
 
+TEST_CASE("examine --reference: the line without a counterpart is found where the invocations of a group share") {
+    TwoTexts texts;
+    const std::string scan = "#version 430 core\n"
+                             "layout(local_size_x = 32) in;\n"
+                             "layout(std430) buffer Numbers { float x[]; };\n"
+                             "layout(std430) buffer Counts { uint many; };\n"
+                             "shared float part[32];\n"
+                             "void main() {\n"
+                             "    uint i = gl_LocalInvocationIndex;\n"
+                             "    part[i] = x[gl_GlobalInvocationID.x];\n"
+                             "    for (uint d = 1u; d < 32u; d <<= 1u) {\n"
+                             "        barrier();\n"
+                             "        float left = i >= d ? part[i - d] : 0.0;\n"
+                             "        barrier();\n"
+                             "        part[i] += left;\n"
+                             "    }\n"
+                             "    if (part[i] > 4.0)\n"
+                             "        atomicAdd(many, 1u);\n"
+                             "    x[gl_GlobalInvocationID.x] = part[i] * 0.5;\n"
+                             "}\n";
+    struct Slip {
+        std::string what, by, line;
+    };
+    for (const Slip& slip : {Slip{"part[i] += left;", "part[i] -= left;", "shader.comp:13: part[i] -= left;"},
+                             Slip{"part[i] = x[gl", "part[i] = 2.0 * x[gl", "shader.comp:8: part[i] = 2.0 * x["},
+                             Slip{"part[i] * 0.5", "part[i] * 0.25", "shader.comp:17: "},
+                             Slip{"many, 1u", "many, 2u", "shader.comp:16: atomicAdd(many, 2u);"}}) {
+        const Outcome differs = texts.compared(replaced(scan, slip.what, slip.by), scan);
+        INFO(slip.by << '\n' << differs.out << differs.err);
+        CHECK(differs.status == 1);
+        CHECK_THAT(differs.out, Contains("note      without a counterpart in the reference: " + slip.line));
+    }
+    CHECK(texts.compared(scan, scan).status == 0);
+}
+
 TEST_CASE("examine --reference: findings of the reference are named as its own, and make no status of 0") {
     TwoTexts texts;
     const std::string right = "#version 430 core\nlayout(local_size_x = 32) in;\nbuffer Numbers { float x[]; };\n"

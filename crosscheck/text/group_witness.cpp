@@ -1,6 +1,8 @@
 #include "crosscheck/text/group_witness.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "reference/model/error.hpp"
@@ -21,7 +23,7 @@ struct RememberedGroup {
         : stage(of), memory(text::remembered_group(of.program, of.groups, of.bindings, of.profile, group)) {}
 
     [[nodiscard]] text::TracedRun run(std::uint32_t invocation, std::span<const text::ForcedRow> forced,
-                                      std::size_t stretch) {
+                                      std::optional<std::size_t> stretch) {
         text::TracedRun made;
         made.words = text::run_traced_in_group(stage.program, stage.invocation(invocation), stage.groups,
                                                stage.bindings, stage.profile, forced, made.trace, memory, stretch);
@@ -36,6 +38,36 @@ struct RememberedGroup {
         return place.word < words.size() ? std::optional(words[place.word]) : std::nullopt;
     }
 };
+
+/// The groups of a text that are asked for.
+class Groups {
+  public:
+    explicit Groups(const BoundStage& stage) : stage_(stage) {}
+    [[nodiscard]] RememberedGroup& of(std::uint32_t group) {
+        const auto found = groups_.find(group);
+        return found != groups_.end() ? found->second : groups_.try_emplace(group, stage_, group).first->second;
+    }
+    /// Of an invocation of any group, in a stretch or as a whole. Refers to this.
+    [[nodiscard]] auto runs(std::optional<std::size_t> stretch) {
+        return [this, stretch](std::uint32_t invocation, std::span<const text::ForcedRow> forced) {
+            return of(invocation / stage_.program.invocations()).run(invocation, forced, stretch);
+        };
+    }
+
+  private:
+    const BoundStage& stage_;
+    std::map<std::uint32_t, RememberedGroup> groups_;
+};
+
+/// Whether each has the other's shared variables, and barriers where the other has.
+bool share_alike(const text::Program& a, const text::Program& b) {
+    const auto has_all = [](const text::Program& one, const text::Program& other) {
+        return std::ranges::all_of(other.shared_names, [&](const text::NamedCells& named) {
+            return std::ranges::find(one.shared_names, named.name, &text::NamedCells::name) != one.shared_names.end();
+        });
+    };
+    return (a.barriers > 0) == (b.barriers > 0) && has_all(a, b) && has_all(b, a);
+}
 
 /// The same shared variable of another text.
 std::optional<text::WrittenPlace> common_shared(const text::Program& of, const text::Program& other,
@@ -84,46 +116,59 @@ std::optional<std::size_t> wrong_stretch(const RememberedGroup& wrong, const Rem
 
 bool shares(const text::Program& program) {
     return program.barriers > 0 || program.shared > 0 || std::ranges::any_of(program.steps, [](const text::Step& step) {
-               return step.op == text::code::atomic_shared || step.op == text::code::atomic_block ||
-                      step.op == text::code::atomic_texel;
+               return (step.op == text::code::atomic_block || step.op == text::code::atomic_texel) &&
+                      step.out != text::no_cell;
            });
 }
 
-std::vector<WitnessLine>
-group_witness_lines(const BoundStage& wrong, const BoundStage& reference, std::span<const std::uint32_t> groups,
-                    const Common& common, const std::function<std::string(std::uint32_t line)>& line_of_wrong,
-                    const std::function<std::string(std::uint32_t line)>& line_of_reference) try {
-    constexpr std::size_t most_items = 10;
-    const Common common_of_reference = [&](const text::WrittenPlace& place) {
-        return place.space == Space::shared ? common_shared(reference.program, wrong.program, place) : common(place);
+std::vector<WitnessLine> group_witness_lines(const SharingText& wrong, const SharingText& reference,
+                                             std::span<const ItemWriters> items, std::span<const ItemWriters> others,
+                                             const Common& common,
+                                             const std::function<bool(std::string_view where)>& is_own) try {
+    constexpr std::size_t most_groups = 3, most_items = 10;
+    Groups groups_of_wrong(wrong.stage), groups_of_reference(reference.stage);
+    const Common all_of_reference = [&](const text::WrittenPlace& place) {
+        return place.space == Space::shared ? common_shared(reference.stage.program, wrong.stage.program, place)
+                                            : common(place);
     };
+    std::set<std::uint32_t> groups;
+    for (const ItemWriters& by : items)
+        if (const auto one = by.wrong ? by.wrong : by.reference; one && groups.size() < most_groups)
+            groups.insert(*one / wrong.stage.program.invocations());
     for (const std::uint32_t group : groups) {
-        RememberedGroup own(wrong, group), right(reference, group);
-        const std::optional<std::size_t> stretch = wrong_stretch(own, right, common_of_reference);
+        if (!share_alike(wrong.stage.program, reference.stage.program))
+            break;
+        RememberedGroup &own = groups_of_wrong.of(group), &right = groups_of_reference.of(group);
+        if (own.memory.moments.size() != right.memory.moments.size())
+            break;
+        const std::optional<std::size_t> stretch = wrong_stretch(own, right, all_of_reference);
         if (!stretch)
             continue;
-        const auto runs_of = [&](RememberedGroup& of) {
-            return [&of, stretch](std::uint32_t invocation, std::span<const text::ForcedRow> forced) {
-                return of.run(invocation, forced, *stretch);
-            };
-        };
-        const WitnessedText of_wrong{wrong.program, runs_of(own),
-                                     [](const text::WrittenPlace&p) { return std::optional(p); }, line_of_wrong},
-            of_reference{reference.program, runs_of(right), common_of_reference, line_of_reference};
-        std::vector<ItemWriters> items, others;
-        const std::uint32_t size = wrong.program.invocations();
+        const WitnessedText of_wrong{wrong.stage.program, groups_of_wrong.runs(stretch),
+                                     [](const text::WrittenPlace&p) { return std::optional(p); }, wrong.line_text},
+            of_reference{reference.stage.program, groups_of_reference.runs(stretch), all_of_reference,
+                         reference.line_text};
+        std::vector<ItemWriters> in_stretch, same;
+        const std::uint32_t size = wrong.stage.program.invocations();
         for (std::uint32_t i = group * size; i < (group + 1) * size; ++i) {
             std::vector<ItemWriters>& to =
-                common_run(of_wrong, i).words == common_run(of_reference, i).words ? others : items;
+                common_run(of_wrong, i).words == common_run(of_reference, i).words ? same : in_stretch;
             if (to.size() < most_items)
                 to.push_back({i, i});
         }
-        std::vector<WitnessLine> lines =
-            witness_lines(of_wrong, of_reference, items, others, [](std::string_view) { return true; });
+        std::vector<WitnessLine> lines = witness_lines(of_wrong, of_reference, in_stretch, same, is_own);
         if (!lines.empty())
             return lines;
     }
-    return {};
+    const Common no_shared = [](const text::WrittenPlace& place) {
+        return place.space == Space::shared ? std::nullopt : std::optional(place);
+    };
+    return witness_lines(
+        {wrong.stage.program, groups_of_wrong.runs({}), no_shared, wrong.line_text},
+        {reference.stage.program, groups_of_reference.runs({}),
+         [&](const text::WrittenPlace& place) { return place.space == Space::shared ? std::nullopt : common(place); },
+         reference.line_text},
+        items, others, is_own);
 } catch (const Error&) {
     return {}; // too many barriers, or what is not run so
 }

@@ -14,13 +14,20 @@ namespace lockstep {
 /// Whether the invocations of a group share more than what they read: barriers, shared variables, atomic operations.
 bool shares(const text::Program& program);
 
-/// witness_lines of texts whose invocations share: of the groups given, the first that has any, in the first stretch
-/// between two barriers in which an invocation writes otherwise. `common`: WitnessedText::common of the reference, but
-/// for shared variables, which go by their names; places of `wrong` are common as they are.
+/// A text whose invocations share.
+struct SharingText {
+    const BoundStage& stage;
+    std::function<std::string(std::uint32_t line)> line_text;
+};
+
+/// witness_lines of texts whose invocations share. Where both share alike, in the first stretch between two barriers in
+/// which an invocation writes otherwise, in the first of the groups that has one; else from an invocation's start to
+/// its end. `common`: WitnessedText::common of the reference, but for shared variables, which go by their names; places
+/// of `wrong` are common as they are.
 std::vector<WitnessLine>
-group_witness_lines(const BoundStage& wrong, const BoundStage& reference, std::span<const std::uint32_t> groups,
+group_witness_lines(const SharingText& wrong, const SharingText& reference, std::span<const ItemWriters> items,
+                    std::span<const ItemWriters> others,
                     const std::function<std::optional<text::WrittenPlace>(text::WrittenPlace)>& common,
-                    const std::function<std::string(std::uint32_t line)>& line_of_wrong,
-                    const std::function<std::string(std::uint32_t line)>& line_of_reference);
+                    const std::function<bool(std::string_view where)>& is_own);
 
 } // namespace lockstep

@@ -1,10 +1,12 @@
 #include "crosscheck/text/pass_witness.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "crosscheck/text/bound_stage.hpp"
+#include "crosscheck/text/group_witness.hpp"
 
 namespace lockstep {
 namespace {
@@ -37,6 +39,19 @@ class WitnessedPass {
 
     [[nodiscard]] std::optional<std::uint32_t> writer(std::uint8_t resource, std::size_t item) const {
         return dispatch_.writer(resource, item);
+    }
+    [[nodiscard]] const BoundStage& stage() const { return stage_; }
+    [[nodiscard]] std::string line(std::uint32_t line) const { return text_.line_text(line); }
+    /// Where another text's block or image is in this one.
+    [[nodiscard]] std::optional<text::WrittenPlace> place_of(const WitnessedPass& other,
+                                                             text::WrittenPlace place) const {
+        const std::vector<std::uint32_t>& own = place.is_of_block() ? blocks_ : images_;
+        const std::uint32_t number = (place.is_of_block() ? other.blocks_ : other.images_)[place.number];
+        const auto found = std::ranges::find(own, number);
+        if (found == own.end())
+            return {};
+        place.number = static_cast<std::uint32_t>(found - own.begin());
+        return place;
     }
     [[nodiscard]] WitnessedText text() const {
         return {text_.program(),
@@ -84,7 +99,14 @@ std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& re
             by.push_back({of_wrong.writer(resource, item), of_reference.writer(resource, item)});
         return by;
     };
-    return witness_lines(of_wrong.text(), of_reference.text(), writers(items), writers(others), is_own);
+    const std::vector<ItemWriters> wrong_items = writers(items);
+    if (!shares(wrong.program()) && !shares(reference.program()))
+        return witness_lines(of_wrong.text(), of_reference.text(), wrong_items, writers(others), is_own);
+    return group_witness_lines(
+        {of_wrong.stage(), [&](std::uint32_t line) { return of_wrong.line(line); }},
+        {of_reference.stage(), [&](std::uint32_t line) { return of_reference.line(line); }}, wrong_items,
+        writers(others), [&](const text::WrittenPlace& place) { return of_wrong.place_of(of_reference, place); },
+        is_own);
 }
 
 } // namespace lockstep

@@ -1,6 +1,7 @@
 #include "crosscheck/text/text_comparison.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -190,31 +191,27 @@ bool holds_integers(const text::Program& program) {
            std::ranges::any_of(program.images, [](const text::ImageUniform& image) { return !image.is_real; });
 }
 
-/// Groups of a few of the invocations; the first few where they are not known.
-std::vector<std::uint32_t> groups_of(std::span<const ItemWriters> writers, const BoundStage& stage) {
-    constexpr std::uint32_t most = 3;
-    std::set<std::uint32_t> groups;
-    for (const ItemWriters& by : writers)
-        groups.insert(by.wrong.value_or(by.reference.value_or(0)) / stage.program.invocations());
-    const std::uint32_t all = stage.groups[0] * stage.groups[1] * stage.groups[2];
-    for (std::uint32_t group = 0; writers.empty() && group < std::min(all, most); ++group)
-        groups.insert(group);
-    std::vector<std::uint32_t> some(groups.begin(), groups.end());
-    some.resize(std::min<std::size_t>(some.size(), most));
-    return some;
+std::vector<std::uint32_t> all_invocations(const BoundStage& of) {
+    std::vector<std::uint32_t> all(std::size_t{of.program.invocations()} * of.groups[0] * of.groups[1] * of.groups[2]);
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
 }
 
 /// Lines of the text that have no counterpart in the reference.
 std::vector<WitnessLine> lines_of(const StageText& text, const StageText& reference, const BothRuns& both,
                                   const BoundStage& own, const BoundStage& right, std::span<const ComparedWords> all,
                                   const WordComparison& compared) {
-    const SomeWriters some = some_writers(both, all, compared);
+    SomeWriters some = some_writers(both, all, compared);
+    if (some.wrong.empty() && own.run == nullptr) // what several change: some of all
+        for (const std::uint32_t one : some_of(all_invocations(own)))
+            some.wrong.push_back({one, one});
     const auto common = [&](const text::WrittenPlace& place) { return both.names().place(text, reference, place); };
     const auto line_in = [](const StageText& of) {
         return [&of](std::uint32_t line) { return line_text(*of.source, line); };
     };
     if (shares(text.program) || shares(reference.program))
-        return group_witness_lines(own, right, groups_of(some.wrong, own), common, line_in(text), line_in(reference));
+        return group_witness_lines({own, line_in(text)}, {right, line_in(reference)}, some.wrong, some.right, common,
+                                   [](std::string_view) { return true; });
     const auto runs_of = [](const BoundStage& bound) {
         return [&bound](std::uint32_t invocation, std::span<const text::ForcedRow> forced) {
             return bound.traced(invocation, forced);

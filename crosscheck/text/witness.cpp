@@ -41,8 +41,9 @@ std::string what_of(const text::Trace& trace, const text::Suspect& suspect) {
 /// What speaks for a line.
 struct Line {
     double score = 0.0;
-    double loudest = 0.0; ///< of one item
-    std::string what;     ///< of that item
+    double loudest = 0.0;      ///< of one item
+    std::string what;          ///< of that item
+    bool only_compares = true; ///< and no other answer repairs
 };
 
 } // namespace
@@ -114,12 +115,14 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
             const std::uint32_t at = *own_line;
             of_item[at] = std::max(of_item[at], weight);
             Line& line = lines[at];
+            line.only_compares =
+                line.only_compares && !one.repairs && run.trace.rows[one.row].kind == text::TraceRow::Kind::comparison;
             if (weight > line.loudest) {
                 line.loudest = weight;
                 line.what = what_of(run.trace, one);
             }
         }
-        std::set<std::uint32_t> missed;
+        std::set<std::uint32_t> missed, counted_lines;
         for (const std::uint32_t row : text::missing_rows(right, run)) {
             const text::TraceRow& one = right.trace.rows[row];
             constexpr std::uint32_t counted = 16; // 0 and what loops count say nothing
@@ -133,8 +136,10 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
             if (missing[*at].what.empty())
                 missing[*at].what = is_comparison ? compared(right.trace, one)
                                                   : fmt::format("makes {}", text::value_text(one.bits, one.is_real));
-            missed.insert(*at);
+            (one.is_real || is_comparison ? missed : counted_lines).insert(*at);
         }
+        if (missed.empty()) // indices and what loops count differ with the way a text is written
+            missed = std::move(counted_lines);
         for (const std::uint32_t at : missed)
             missing[at].score += 1.0 / static_cast<double>(missed.size());
         for (const auto& [at, weight] : of_item)
@@ -168,19 +173,25 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
         return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
     std::vector<WitnessLine> found;
+    std::set<std::string> only_compared;
     for (const auto& [score, at] : ranked) {
         if (found.size() == most_lines || score < floor_of_score || score < 0.2 * ranked.front().first)
             break;
+        if (lines[at].only_compares)
+            only_compared.insert(program.line_name(at));
         found.push_back({program.line_name(at), wrong.line_text(at), lines[at].what});
     }
     // What the reference makes and the text never does, where no line of the text repairs anything.
     const bool repairs = !ranked.empty() && lines[ranked.front().second].loudest > repair_of_output;
     const auto most = std::max_element(missing.begin(), missing.end(),
                                        [](const auto& a, const auto& b) { return a.second.score < b.second.score; });
-    if (!repairs && most != missing.end() && most->second.score > 0.3 * static_cast<double>(looked_at))
+    if (!repairs && most != missing.end() && most->second.score > 0.3 * static_cast<double>(looked_at)) {
+        if (alike == 0) // then what loops of a text compare that is written otherwise differs anywhere
+            std::erase_if(found, [&](const WitnessLine& one) { return only_compared.contains(one.where); });
         found.insert(found.begin(), {fmt::format("{} of the reference", expected.line_name(most->first)),
                                      reference.line_text(most->first),
                                      fmt::format("{}, which this text never does", most->second.what)});
+    }
     found.resize(std::min(found.size(), most_lines));
     return found;
 } catch (const Error&) {

@@ -29,7 +29,8 @@ struct Site {
 
     /// A site that is known at run time alone, as the line of a text. The label outlives it.
     static Site named(std::string_view label) {
-        Site site("");
+        constexpr Site unnamed("");
+        Site site = unnamed;
         site.label = label;
         site.id = name_id(label);
         return site;

@@ -46,6 +46,8 @@ class Seen {
             }
     }
     [[nodiscard]] bool has(const Trace& trace, const TraceRow& row) const {
+        if (row.kind == Kind::load && row.place.space == WrittenPlace::Space::shared) // a value on its way
+            return places_.contains(row.place) || says_little(row) || values_.contains(row.bits);
         if (row.kind == Kind::load)
             return places_.contains(row.place);
         if (row.kind == Kind::comparison || says_little(row))
@@ -129,6 +131,22 @@ std::vector<std::uint32_t> front_of(const Trace& trace, const std::vector<bool>&
     return front;
 }
 
+/// Of each line the first rows and the last, so that no loop takes the place of all else.
+std::vector<std::uint32_t> some_of_each_line(const Trace& trace, const std::vector<std::uint32_t>& rows,
+                                             std::size_t most) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_line;
+    for (const std::uint32_t row : rows)
+        by_line[trace.rows[row].line].push_back(row);
+    const std::size_t of_each = std::max<std::size_t>(2, most / std::max<std::size_t>(by_line.size(), 1));
+    std::vector<std::uint32_t> some;
+    for (const auto& [line, all] : by_line)
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (k + 1 < of_each || k + 1 == all.size())
+                some.push_back(all[k]);
+    std::sort(some.begin(), some.end());
+    return some;
+}
+
 /// How far two floats are apart, in units of the larger; of others by their bits.
 double distance(std::uint32_t a, std::uint32_t b) {
     const double x = std::bit_cast<float>(a), y = std::bit_cast<float>(b);
@@ -146,7 +164,7 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
     const std::set<WrittenPlace> places = places_that_differ(wrong.words, right.words);
     std::vector<std::uint32_t> front = front_of(wrong.trace, matched_in(wrong.trace, in_right), places);
     if (front.size() > most_rows)
-        front.resize(most_rows);
+        front = some_of_each_line(wrong.trace, front, most_rows);
     std::set<std::uint32_t> outputs;
     for (const TraceRow& row : wrong.trace.rows)
         if (row.kind == Kind::store && places.contains(row.place))

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,11 +27,12 @@ GroupMemory remembered_group(const Program& program, const std::array<std::uint3
                              const Bindings& bindings, const Profile& profile, std::uint32_t group);
 
 /// run_traced of one of the group's invocations, from its start to the end of the stretch that begins at
-/// moments[stretch]. Returns what it wrote in that stretch, shared words too. What the others do behind a barrier is as
-/// they did it, whatever is forced; an atomic operation finds what lay there at the stretch's start.
+/// moments[stretch]. Returns what it wrote in that stretch, shared words too; without a stretch it runs to its end, and
+/// shared words are left out. What the others do behind a barrier is as they did it, whatever is forced; an atomic
+/// operation finds what lay there at the stretch's start.
 std::vector<TracedWord> run_traced_in_group(const Program& program, const Invocation& invocation,
                                             std::array<std::uint32_t, 3> groups, const Bindings& bindings,
                                             const Profile& profile, std::span<const ForcedRow> forced, Trace& trace,
-                                            GroupMemory& group, std::size_t stretch);
+                                            GroupMemory& group, std::optional<std::size_t> stretch);
 
 } // namespace lockstep::text

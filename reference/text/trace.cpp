@@ -1,6 +1,7 @@
 #include "reference/text/trace.hpp"
 
 #include <bit>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -77,7 +78,7 @@ std::vector<TracedWord> run_traced(const Program& program, const Invocation& inv
 std::vector<TracedWord> run_traced_in_group(const Program& program, const Invocation& invocation,
                                             std::array<std::uint32_t, 3> groups, const Bindings& bindings,
                                             const Profile& profile, std::span<const ForcedRow> forced, Trace& trace,
-                                            GroupMemory& group, std::size_t stretch) {
+                                            GroupMemory& group, std::optional<std::size_t> stretch) {
     Bindings now = bindings;
     Findings ignored;
     Memory memory(program, now, ignored, nullptr);
@@ -92,20 +93,30 @@ std::vector<TracedWord> run_traced_in_group(const Program& program, const Invoca
             memory.store_shared(w, moment.shared[w], {});
     };
     enter();
+    std::map<WrittenPlace, std::uint32_t> all;
+    const auto gather = [&](const WrittenWords<TracedValues>& written) {
+        for (const auto& [place, cell] : written)
+            if (stretch || place.space != WrittenPlace::Space::shared)
+                all[place] = cell.word();
+    };
+    const WrittenWords<TracedValues> last =
+        run_noted(program, invocation, groups, now, profile, forced, trace, memory, {}, [&](auto& run, auto& written) {
+            run.meet([&] {
+                if (at == stretch || at + 1 == group.moments.size())
+                    return false;
+                ++at;
+                if (!stretch)
+                    gather(written);
+                written.clear();
+                enter();
+                return true;
+            });
+        });
+    if (!stretch || at == *stretch)
+        gather(last);
     std::vector<TracedWord> words;
-    for (const auto& [place, cell] :
-         run_noted(program, invocation, groups, now, profile, forced, trace, memory, {}, [&](auto&run, auto&written) {
-             run.meet([&] {
-                 if (at == stretch)
-                     return false;
-                 ++at;
-                 written.clear();
-                 enter();
-                 return true;
-             });
-         }))
-        if (at == stretch)
-            words.push_back({place, cell.word()});
+    for (const auto& [place, bits] : all)
+        words.push_back({place, bits});
     return words;
 }
 

@@ -1,3 +1,4 @@
+#include <array>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -318,4 +319,50 @@ TEST_CASE("examine --reference: the JSON file has what the report says") {
     CHECK(found["first"].size() == 3);
     CHECK(found["findings"].empty());
     CHECK(found["without_counterpart"][0]["where"] == "shader.comp:11");
+}
+
+TEST_CASE("examine --reference: a text of groups is held against a plain one, from an invocation's start to its end") {
+    TwoTexts texts;
+    const std::string plain = "#version 430 core\n"
+                              "layout(local_size_x = 32) in;\n"
+                              "layout(std430) buffer Numbers { float x[128]; };\n"
+                              "layout(std430) buffer Sums { float made[128]; };\n"
+                              "void main() {\n"
+                              "    uint i = gl_GlobalInvocationID.x;\n"
+                              "    float sum = 0.0;\n"
+                              "    for (uint j = 0u; j < 128u; ++j)\n"
+                              "        sum += x[j] * 0.5;\n"
+                              "    made[i] = sum * x[i];\n"
+                              "}\n";
+    const std::string tiled = "#version 430 core\n"
+                              "layout(local_size_x = 32) in;\n"
+                              "layout(std430) buffer Numbers { float x[128]; };\n"
+                              "layout(std430) buffer Sums { float made[128]; };\n"
+                              "shared float tile[32];\n"
+                              "void main() {\n"
+                              "    uint i = gl_GlobalInvocationID.x;\n"
+                              "    uint k = gl_LocalInvocationIndex;\n"
+                              "    float sum = 0.0;\n"
+                              "    for (uint t = 0u; t < 128u; t += 32u) {\n"
+                              "        tile[k] = x[t + k];\n"
+                              "        barrier();\n"
+                              "        for (uint j = 0u; j < 32u; ++j)\n"
+                              "            sum += tile[j] * 0.5;\n"
+                              "        barrier();\n"
+                              "    }\n"
+                              "    made[i] = sum * x[i];\n"
+                              "}\n";
+    const Outcome right = texts.compared(tiled, plain, {"--groups", "4"});
+    INFO(right.out << right.err);
+    CHECK(right.status == 0);
+    CHECK_THAT(right.out, Contains("verdict   AGREE"));
+    for (const auto& [what, by, line] :
+         {std::array<std::string, 3>{"made[i] = sum * x[i]", "made[i] = sum + x[i]",
+                                     "shader.comp:17: made[i] = sum + x[i];"},
+          {"tile[j] * 0.5", "tile[j] * 0.25", "shader.comp:14: sum += tile[j] * 0.25;"}}) {
+        const Outcome wrong = texts.compared(replaced(tiled, what, by), plain, {"--groups", "4"});
+        INFO(by << '\n' << wrong.out << wrong.err);
+        CHECK(wrong.status == 1);
+        CHECK_THAT(wrong.out, Contains("note      without a counterpart in the reference: " + line));
+    }
 }

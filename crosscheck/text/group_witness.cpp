@@ -163,12 +163,15 @@ std::vector<WitnessLine> group_witness_lines(const SharingText& wrong, const Sha
     const Common no_shared = [](const text::WrittenPlace& place) {
         return place.space == Space::shared ? std::nullopt : std::optional(place);
     };
-    return witness_lines(
+    std::vector<WitnessLine> lines = witness_lines(
         {wrong.stage.program, groups_of_wrong.runs({}), no_shared, wrong.line_text},
         {reference.stage.program, groups_of_reference.runs({}),
          [&](const text::WrittenPlace& place) { return place.space == Space::shared ? std::nullopt : common(place); },
          reference.line_text},
-        items, others, is_own);
+        items, others, is_own, true);
+    if (shares(reference.stage.program)) // what it makes of others' words lies behind what went wrong
+        std::erase_if(lines, [](const WitnessLine& one) { return one.where.ends_with(reference_mark); });
+    return lines;
 } catch (const Error&) {
     return {}; // too many barriers, or what is not run so
 }

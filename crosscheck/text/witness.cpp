@@ -76,7 +76,8 @@ std::string line_of(const WitnessLine& line) { return fmt::format("{}: {}: {}", 
 
 std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const WitnessedText& reference,
                                        std::span<const ItemWriters> items, std::span<const ItemWriters> others,
-                                       const std::function<bool(std::string_view where)>& is_own) try {
+                                       const std::function<bool(std::string_view where)>& is_own,
+                                       bool is_written_otherwise) try {
     constexpr double repair = 3.0, repair_of_output = 1.0, no_repair = 0.5, floor_of_score = 0.2;
     constexpr std::size_t most_lines = 3;
     const text::Program &program = wrong.program, &expected = reference.program;
@@ -108,6 +109,10 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
             });
         std::map<std::uint32_t, double> of_item;
         for (const text::Suspect& one : suspects) {
+            const text::TraceRow& row = run.trace.rows[one.row];
+            if (is_written_otherwise && row.kind == text::TraceRow::Kind::load &&
+                row.place.space == text::WrittenPlace::Space::shared) // another invocation made it
+                continue;
             const double weight = one.repairs ? (one.is_output ? repair_of_output : repair) : no_repair;
             const std::optional<std::uint32_t> own_line = line_of(run.trace, run.trace.rows[one.row]);
             if (!own_line)
@@ -128,15 +133,18 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
             constexpr std::uint32_t counted = 16; // 0 and what loops count say nothing
             const bool is_common = one.is_real ? (one.bits & 0x7fffffffU) == 0 : one.bits <= counted;
             const bool is_comparison = one.kind == text::TraceRow::Kind::comparison;
+            const bool is_store = one.kind == text::TraceRow::Kind::store;
             // A comparison counts where it keeps the reference from writing at all.
-            const auto at =
-                (is_comparison ? !right.words.empty() : is_common) ? std::nullopt : line_in(expected, right.trace, one);
+            const auto at = (is_comparison ? !right.words.empty() : is_common && !is_store)
+                                ? std::nullopt
+                                : line_in(expected, right.trace, one);
             if (!at)
                 continue;
             if (missing[*at].what.empty())
                 missing[*at].what = is_comparison ? compared(right.trace, one)
-                                                  : fmt::format("makes {}", text::value_text(one.bits, one.is_real));
-            (one.is_real || is_comparison ? missed : counted_lines).insert(*at);
+                                                  : fmt::format("{} {}", is_store ? "writes" : "makes",
+                                                                text::value_text(one.bits, one.is_real));
+            (one.is_real || is_comparison || is_store ? missed : counted_lines).insert(*at);
         }
         if (missed.empty()) // indices and what loops count differ with the way a text is written
             missed = std::move(counted_lines);
@@ -177,6 +185,8 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
     for (const auto& [score, at] : ranked) {
         if (found.size() == most_lines || score < floor_of_score || score < 0.2 * ranked.front().first)
             break;
+        if (lines[at].only_compares && is_written_otherwise)
+            continue;
         if (lines[at].only_compares)
             only_compared.insert(program.line_name(at));
         found.push_back({program.line_name(at), wrong.line_text(at), lines[at].what});
@@ -188,7 +198,7 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
     if (!repairs && most != missing.end() && most->second.score > 0.3 * static_cast<double>(looked_at)) {
         if (alike == 0) // then what loops of a text compare that is written otherwise differs anywhere
             std::erase_if(found, [&](const WitnessLine& one) { return only_compared.contains(one.where); });
-        found.insert(found.begin(), {fmt::format("{} of the reference", expected.line_name(most->first)),
+        found.insert(found.begin(), {fmt::format("{}{}", expected.line_name(most->first), reference_mark),
                                      reference.line_text(most->first),
                                      fmt::format("{}, which this text never does", most->second.what)});
     }

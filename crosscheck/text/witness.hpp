@@ -19,6 +19,9 @@ struct WitnessLine {
     std::string what;  ///< what it gave of an item, and what would have been right there
 };
 
+/// What WitnessLine::where of a line of the reference ends with.
+inline constexpr std::string_view reference_mark = " of the reference";
+
 /// "FILE:LINE: TEXT: WHAT".
 std::string line_of(const WitnessLine& line);
 
@@ -45,9 +48,11 @@ struct ItemWriters {
 /// Looks for the lines of `wrong` that make what it writes differ from what `reference` writes from the same state,
 /// invocation by invocation (reference/text/alignment.hpp). At most three, the likeliest first; none where too little
 /// speaks for any. `items` differ from the reference, `others` do not.
-/// What lies in a file that is none of the user's, by is_own(FILE:LINE), counts as the call's line.
+/// What lies in a file that is none of the user's, by is_own(FILE:LINE), counts as the call's line. Of texts that are
+/// written otherwise, what loops compare says nothing.
 std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const WitnessedText& reference,
                                        std::span<const ItemWriters> items, std::span<const ItemWriters> others,
-                                       const std::function<bool(std::string_view where)>& is_own);
+                                       const std::function<bool(std::string_view where)>& is_own,
+                                       bool is_written_otherwise = false);
 
 } // namespace lockstep

@@ -215,8 +215,21 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
 }
 
 std::vector<std::uint32_t> missing_rows(const TracedRun& right, const TracedRun& wrong) {
-    return front_of(right.trace, matched_in(right.trace, Seen(wrong.trace)),
-                    places_that_differ(right.words, wrong.words));
+    const std::vector<bool> matched = matched_in(right.trace, Seen(wrong.trace));
+    std::set<WrittenPlace> places = places_that_differ(right.words, wrong.words);
+    std::vector<std::uint32_t> rows = front_of(right.trace, matched, places);
+    for (const TracedWord& word : wrong.words)
+        places.erase(word.place);
+    // What is stored of a value that both have: the store itself.
+    for (std::uint32_t row = 0; row < right.trace.rows.size(); ++row) {
+        const TraceRow& one = right.trace.rows[row];
+        if (one.kind != Kind::store || !places.contains(one.place))
+            continue;
+        const std::uint32_t value = right.trace.operands[one.first].row;
+        if (value == TraceOperand::no_row || matched[value])
+            rows.push_back(row);
+    }
+    return rows;
 }
 
 std::vector<std::uint32_t> unmatched_rows(const TracedRun& run, const TracedRun& other) {

@@ -366,3 +366,26 @@ TEST_CASE("examine --reference: a text of groups is held against a plain one, fr
         CHECK_THAT(wrong.out, Contains("note      without a counterpart in the reference: " + line));
     }
 }
+
+TEST_CASE("examine --reference: a store or an atomic operation that is missing is the reference's line") {
+    TwoTexts texts;
+    const std::string both = "#version 430 core\n"
+                             "layout(local_size_x = 32) in;\n"
+                             "layout(std430, binding = 0) buffer Numbers { float x[64]; };\n"
+                             "layout(std430, binding = 1) buffer Counts { uint many; };\n"
+                             "void main() {\n"
+                             "    uint i = gl_GlobalInvocationID.x;\n"
+                             "    float a = x[i] * 1.5;\n"
+                             "    atomicAdd(many, 1u);\n"
+                             "    x[i] = a;\n"
+                             "}\n";
+    for (const auto& [what, line] :
+         {std::array<std::string, 2>{"    atomicAdd(many, 1u);",
+                                     "shader.comp:8 of the reference: atomicAdd(many, 1u);: writes 1"},
+          {"    x[i] = a;", "shader.comp:9 of the reference: x[i] = a;: writes "}}) {
+        const Outcome wrong = texts.compared(replaced(both, what, ""), both, {"--groups", "2"});
+        INFO(what << '\n' << wrong.out << wrong.err);
+        CHECK(wrong.status == 1);
+        CHECK_THAT(wrong.out, Contains("note      without a counterpart in the reference: " + line));
+    }
+}

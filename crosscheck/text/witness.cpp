@@ -205,7 +205,7 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
     found.resize(std::min(found.size(), most_lines));
     return found;
 } catch (const Error&) {
-    return {}; // of groups that share, and images of half floats, nothing is known
+    return {}; // of what is not run apart from others nothing is known
 }
 
 } // namespace lockstep

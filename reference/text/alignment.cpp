@@ -131,6 +131,21 @@ std::vector<std::uint32_t> front_of(const Trace& trace, const std::vector<bool>&
     return front;
 }
 
+/// Stores to some of `places` of what both runs came by, or of a constant.
+std::vector<std::uint32_t> stores_of_matched(const Trace& trace, const std::vector<bool>& matched,
+                                             const std::set<WrittenPlace>& places) {
+    std::vector<std::uint32_t> stores;
+    for (std::uint32_t row = 0; row < trace.rows.size(); ++row) {
+        const TraceRow& one = trace.rows[row];
+        if (one.kind != Kind::store || !places.contains(one.place))
+            continue;
+        const std::uint32_t value = trace.operands[one.first].row;
+        if (value == TraceOperand::no_row || matched[value])
+            stores.push_back(row);
+    }
+    return stores;
+}
+
 /// Of each line the first rows and the last, so that no loop takes the place of all else.
 std::vector<std::uint32_t> some_of_each_line(const Trace& trace, const std::vector<std::uint32_t>& rows,
                                              std::size_t most) {
@@ -162,7 +177,8 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
     constexpr std::size_t most_rows = 24, most_values = 32;
     const Seen in_right(right.trace), in_wrong(wrong.trace);
     const std::set<WrittenPlace> places = places_that_differ(wrong.words, right.words);
-    std::vector<std::uint32_t> front = front_of(wrong.trace, matched_in(wrong.trace, in_right), places);
+    const std::vector<bool> matched = matched_in(wrong.trace, in_right);
+    std::vector<std::uint32_t> front = front_of(wrong.trace, matched, places);
     if (front.size() > most_rows)
         front = some_of_each_line(wrong.trace, front, most_rows);
     std::set<std::uint32_t> outputs;
@@ -202,15 +218,8 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
         all.push_back(suspect);
     }
     // A right value in the wrong place: the store itself.
-    const std::vector<bool> matched = matched_in(wrong.trace, in_right);
-    for (std::uint32_t row = 0; row < wrong.trace.rows.size(); ++row) {
-        const TraceRow& one = wrong.trace.rows[row];
-        if (one.kind != Kind::store || !places.contains(one.place))
-            continue;
-        const std::uint32_t value = wrong.trace.operands[one.first].row;
-        if (value == TraceOperand::no_row || matched[value])
-            all.push_back({.row = row, .is_output = true});
-    }
+    for (const std::uint32_t row : stores_of_matched(wrong.trace, matched, places))
+        all.push_back({.row = row, .is_output = true});
     return all;
 }
 
@@ -221,14 +230,8 @@ std::vector<std::uint32_t> missing_rows(const TracedRun& right, const TracedRun&
     for (const TracedWord& word : wrong.words)
         places.erase(word.place);
     // What is stored of a value that both have: the store itself.
-    for (std::uint32_t row = 0; row < right.trace.rows.size(); ++row) {
-        const TraceRow& one = right.trace.rows[row];
-        if (one.kind != Kind::store || !places.contains(one.place))
-            continue;
-        const std::uint32_t value = right.trace.operands[one.first].row;
-        if (value == TraceOperand::no_row || matched[value])
-            rows.push_back(row);
-    }
+    const std::vector<std::uint32_t> stores = stores_of_matched(right.trace, matched, places);
+    rows.insert(rows.end(), stores.begin(), stores.end());
     return rows;
 }
 

@@ -44,8 +44,7 @@ void add_open_lines(const std::shared_ptr<const ShaderSource>& stage, const Shad
         });
     };
     try {
-        const text::Program program = text::decoded(
-            text::read_module(spirv_of(*stage), [stage](std::uint32_t line) { return line_name(*stage, line); }));
+        const text::Program program = program_of(stage);
         for (std::size_t k = 0; k < program.steps.size(); ++k)
             if (has_order(program.steps[k].op) && program.precise[k] == 0)
                 if (const std::string line = program.line_name(program.lines[k]); is_own(line))

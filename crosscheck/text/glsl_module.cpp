@@ -193,6 +193,11 @@ std::vector<std::uint32_t> spirv_of(const ShaderSource& stage, ConstantExpressio
     return with_condition_lines(words, stage.text);
 }
 
+text::Program program_of(const std::shared_ptr<const ShaderSource>& stage) {
+    return text::decoded(
+        text::read_module(spirv_of(*stage), [stage](std::uint32_t line) { return line_name(*stage, line); }));
+}
+
 std::string line_name(const ShaderSource& stage, std::uint32_t line) {
     if (line == 0 || line > stage.origins.size())
         return std::filesystem::path(stage.files.front()).filename().string();

@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gpu/shader_source.hpp"
+#include "reference/text/program.hpp"
 
 namespace lockstep {
 
@@ -18,5 +20,9 @@ std::vector<std::uint32_t> spirv_of(const ShaderSource& stage,
 
 /// "FILE:LINE" of a line of the stage's text, the file's name alone.
 std::string line_name(const ShaderSource& stage, std::uint32_t line);
+
+/// A stage as the interpreter takes it, whose lines have the names above. Throws Error as spirv_of does, and for what
+/// is not interpreted.
+text::Program program_of(const std::shared_ptr<const ShaderSource>& stage);
 
 } // namespace lockstep

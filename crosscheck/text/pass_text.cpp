@@ -26,11 +26,6 @@ std::shared_ptr<const ShaderSource> source_of(const GlPass& pass, const ShaderFo
     return std::make_shared<ShaderSource>(load_stages(folders, pass.name, stages, input.defines, input.texts).front());
 }
 
-text::Program program_of(const std::shared_ptr<const ShaderSource>& source) {
-    return text::decoded(
-        text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); }));
-}
-
 /// The items of a view as records: the words of each component, one after the other.
 std::vector<std::uint32_t> records_of(const View& view, std::span<const Component> record) {
     std::vector<std::uint32_t> words(view.count() * record.size());

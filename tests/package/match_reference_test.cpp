@@ -178,7 +178,8 @@ TEST_CASE("user shaders: a planted bug is found, and the last line of the report
     CHECK(result.report().verdict == Verdict::divergent);
     const std::string command = repeat_command(result);
     CHECK_THAT(command, StartsWith("lockstep check " + scene.origin + " --frames ") &&
-                            EndsWith(" --gl " + test::software_gl() + " --shaders " + folder.path().string()));
+                            EndsWith(" --gl " + test::software_gl() + " --shaders " + folder.path().string() +
+                                     " --legal measured"));
     const test::ShellOutcome again = test::run_in_shell(command);
     CHECK(again.status == 1);
     CHECK_THAT(again.out, Contains("verdict   DIVERGENT from frame " + std::to_string(*result.report().first_frame)));

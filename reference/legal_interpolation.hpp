@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "reference/interval.hpp"
 #include "reference/model/clip_space.hpp"
@@ -84,24 +85,60 @@ struct DriverInterpolation {
 };
 
 /// GL gives the equations (4.5, 14.6.1) and for operations of fixed function 1 part in 10^5 (2.3.4.1), here of the
-/// largest corner; and the driver may evaluate them over corners that its grid has moved by `step` pixels.
-template <class A> DriverInterpolation driver_interpolation(A fp, const TriangleInterpolation<A>& at,
+/// largest corner; and the driver may evaluate them over corners that its grid has moved by `step` pixels, each along x
+/// and y by itself. A share is a quotient that is linear in each of these six, above and below the line, so the most
+/// lies where each is moved all the way. Of a triangle that may be seen edge-on then, all of it is legal.
+template <class A> DriverInterpolation driver_interpolation(A fp, const std::array<glm::vec4, 3>& clip,
                                                             const std::array<glm::vec3, 3>& corners, int x, int y,
+                                                            int width, int height, const ClipDepth& depth,
                                                             double step) {
-    DriverInterpolation most;
-    const auto weights = at.weights(x, y);
-    const glm::vec3 here = at.mix(fp, corners, weights);
-    constexpr std::array<std::array<int, 2>, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-    for (const auto& [dx, dy] : beside) {
-        const auto there = at.weights(x + dx, y + dy);
-        most.position = glm::max(most.position, glm::abs(at.mix(fp, corners, there) - here));
-        most.depth = std::max(most.depth, std::abs(double{at.depth(there)} - double{at.depth(weights)}));
+    struct Fragment {
+        glm::dvec3 position;
+        double ndc, sum;
+    };
+    const auto fragment = [&](const std::array<glm::vec4, 3>& placed) {
+        const auto edges = TriangleInterpolation<A>(fp, placed, width, height, depth).edges(x, y);
+        const glm::dvec3 sides(edges.first, edges.second, edges.third);
+        Fragment at{glm::dvec3(0.0), 0.0, sides.x + sides.y + sides.z};
+        double z = 0.0, w = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            const auto corner = static_cast<std::size_t>(k);
+            at.position += sides[k] / at.sum * glm::dvec3(corners[corner]);
+            z += sides[k] * double{clip[corner].z};
+            w += sides[k] * double{clip[corner].w};
+        }
+        at.ndc = z / w;
+        return at;
+    };
+    const glm::vec3 least = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+    const glm::vec3 most = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+    const TriangleInterpolation<A> exact(fp, clip, width, height, depth);
+    const auto weights = exact.weights(x, y);
+    const glm::dvec3 here(exact.mix(fp, corners, weights));
+    const double depth_here = exact.depth(weights), sum = fragment(clip).sum;
+    glm::dvec3 moved_by(0.0);
+    double deeper = 0.0;
+    for (unsigned moves = 0; moves < 64; ++moves) {
+        std::array<glm::vec4, 3> moved = clip;
+        for (unsigned k = 0; k < 3; ++k) {
+            const double pixels = step * 2.0 * double{clip[k].w};
+            const auto by = [&](unsigned bit, int size) {
+                return static_cast<float>(((moves >> bit & 1U) != 0 ? pixels : -pixels) / size);
+            };
+            moved[k].x += by(2 * k, width);
+            moved[k].y += by(2 * k + 1, height);
+        }
+        const Fragment there = fragment(moved);
+        if (!(sum * there.sum > 0.0))
+            return {most - least, 1.0};
+        const glm::dvec3 position = glm::clamp(there.position, glm::dvec3(least), glm::dvec3(most));
+        moved_by = glm::max(moved_by, glm::abs(position - here));
+        const double window = std::clamp(std::abs(depth.scale()) * there.ndc + std::abs(depth.offset()), 0.0, 1.0);
+        deeper = std::max(deeper, std::abs(double{depth.sign()} * window - depth_here));
     }
-    const glm::vec3 largest = glm::max(glm::max(glm::abs(corners[0]), glm::abs(corners[1])), glm::abs(corners[2]));
-    const auto steps = static_cast<float>(2.0 * step); // along x and along y
-    most.position = steps * most.position + static_cast<float>(gl_window_accuracy.ndc) * largest;
-    most.depth = 2.0 * step * most.depth + gl_window_accuracy.ndc;
-    return most;
+    const glm::vec3 largest = glm::max(glm::abs(least), glm::abs(most));
+    return {glm::vec3(moved_by) + static_cast<float>(gl_window_accuracy.ndc) * largest,
+            deeper + gl_window_accuracy.ndc};
 }
 
 } // namespace lockstep

@@ -90,8 +90,9 @@ std::vector<std::string> conversion_notes(const Profile& profile, const Switches
     const bool has_triangles = switches.obstacles_in_cdt == ObstaclesInCdt::triangles;
     if (has_triangles && !profile.follows(driver_interpolates_row))
         notes.emplace_back("obstacle_pass.frag takes what the driver interpolates, to which GL gives no accuracy: "
-                           "positions within 1 part in 10^5 are right, and of a larger difference lockstep cannot say "
-                           "whose it is; interpolate of triangle_interpolation.glsl leaves nothing open");
+                           "positions are right within 1 part in 10^5 and a step of the driver's grid, and of a larger "
+                           "difference lockstep cannot say whose it is; interpolate of triangle_interpolation.glsl "
+                           "leaves nothing open");
     if (switches.cdt_format == CdtFormat::rgba32f)
         return notes;
     const bool halves = switches.cdt_format == CdtFormat::rgba16f;

@@ -324,7 +324,8 @@ template <class A> class Candidates {
         if (corners_open() || !known().interpolation || by_driver_) {
             DriverInterpolation driver;
             if (by_driver_)
-                driver = driver_interpolation(fp_, interpolation, positions, x, y, grid_of_corners());
+                driver = driver_interpolation(fp_, corners, positions, x, y, params_.width, params_.height,
+                                              params_.clip_depth, grid_of_corners());
             for (int k = 0; k < 3; ++k) {
                 const Interval& place = legal.position[static_cast<std::size_t>(k)];
                 const float bound =

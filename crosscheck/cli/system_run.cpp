@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/cli/text_passes.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/named_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
@@ -14,6 +13,7 @@
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/report/overlay.hpp"
+#include "crosscheck/text/text_passes.hpp"
 #include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
 
@@ -70,6 +70,15 @@ ReadScene read_recorded(const RegisteredSystem& system, const SystemRecording& r
                                 "parameters/lockstep/scene"));
     return recorded_scene(system, recording.info().scene, recording.info().options, recording.info().name,
                           recording.file());
+}
+
+/// The shaders of run.reference. Throws Error where none of them is of a pass of the scene, or one is no reference.
+ShaderUse references_of(const SystemScene& scene, const RunOptions& run) {
+    RunOptions of_references = run;
+    of_references.shaders = run.reference;
+    ShaderUse use = shaders_of(scene, of_references);
+    check_references(use, run.reference);
+    return use;
 }
 
 /// What draws a frame's picture, with all its stages.
@@ -158,23 +167,7 @@ std::string SystemInput::command(const std::string& verb, const std::string& wor
 }
 
 ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run, DrawnStages drawn) {
-    std::vector<PassStages> stages;
-    for (const GlPass& pass : scene.passes) {
-        if (pass.continues)
-            continue;
-        const StageInput input = stage_input(pass, scene.arithmetic);
-        const auto known = std::ranges::find(stages, pass.name, &PassStages::name);
-        if (known != stages.end()) {
-            if (std::ranges::find(known->inputs, input) == known->inputs.end())
-                known->inputs.push_back(input);
-            continue;
-        }
-        stages.push_back({pass.name, {pass.stage}, {input}});
-        if (pass.draw && pass.draw->has_geometry)
-            stages.back().stages.push_back(Stage::geometry);
-        if (pass.draw)
-            stages.back().stages.push_back(Stage::fragment);
-    }
+    std::vector<PassStages> stages = stages_of(scene.passes, scene.arithmetic);
     std::vector<PassStages> run_here = stages;
     for (PassStages& pass : drawn_passes(scene)) {
         stages.push_back(pass);

@@ -11,9 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/shader_findings.hpp"
 #include "crosscheck/cli/system_run.hpp"
-#include "crosscheck/cli/text_passes.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/png.hpp"
@@ -32,6 +30,8 @@
 #include "crosscheck/report/run_to_run.hpp"
 #include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
+#include "crosscheck/text/shader_findings.hpp"
+#include "crosscheck/text/text_passes.hpp"
 #include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
 
@@ -63,12 +63,8 @@ void add_text_notes(RunDescription& about, const ShadedSystem& of, const OwnText
                     SystemSide& side, const KnownOperations& known, const CheckReport& report) {
     if (!about.shaders || run.shaders.empty())
         return;
-    const std::vector<std::string> found =
-        shader_findings(of, own, run.shaders, side.describe().profile, report.frames);
-    about.notes.insert(about.notes.end(), found.begin(), found.end());
-    for (const std::string& line :
-         lines_without_counterpart(of, own, *about.shaders, run.reference, side, known, report))
-        about.notes.push_back("without a counterpart in the reference: " + line);
+    for (std::string& note : text_notes(of, {own, *about.shaders, run.shaders, run.reference}, side, known, report))
+        about.notes.push_back(std::move(note));
 }
 
 /// From the state that the GPU's frames left.

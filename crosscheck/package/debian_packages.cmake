@@ -25,7 +25,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libosmesa6, liblockstep-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblockstep-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "lockstep (= ${PROJECT_VERSION}), libglm-dev, libfmt-dev, nlohmann-json3-dev, libpng-dev, zlib1g-dev, libassimp-dev, libmeshoptimizer-dev, libhdf5-dev, libaec-dev, libdeflate-dev, nettle-dev, libxxhash-dev, libseccomp-dev, libedit-dev, libspirv-cross-c-shared-dev, spirv-tools, libgl-dev, libegl-dev")
+    "lockstep (= ${PROJECT_VERSION}), libglm-dev, libfmt-dev, nlohmann-json3-dev, libpng-dev, zlib1g-dev, libassimp-dev, libmeshoptimizer-dev, libhdf5-dev, libaec-dev, libdeflate-dev, nettle-dev, libxxhash-dev, libseccomp-dev, libedit-dev, libspirv-cross-c-shared-dev, spirv-tools, glslang-dev, glslang-tools, libgl-dev, libegl-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS catch2)
 foreach(component program development)
   string(TOUPPER ${component} upper)

@@ -1,9 +1,11 @@
 #include "lockstep/system.hpp"
 
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "crosscheck/package/own_texts.hpp"
 #include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/scene/profiles.hpp"
 
@@ -52,8 +54,8 @@ GlSystem made(std::vector<ShaderWarning>& warnings, const Schema& schema, std::v
 
 GlSystemSide::GlSystemSide(const Gl& gl, const System& system, std::vector<GlPass> passes, const std::string& shaders,
                            ArithmeticSwitch arithmetic)
-    : gl_(gl), system_(made(warnings_, (gl ? system : throw Error(gl.missing())).schema,
-                            of_twins(std::move(passes), system), shaders, arithmetic)) {}
+    : gl_(gl), passes_(of_twins(std::move(passes), gl ? system : throw Error(gl.missing()))), shaders_(shaders),
+      arithmetic_(arithmetic), system_(made(warnings_, system.schema, passes_, shaders, arithmetic)) {}
 
 SideDescription GlSystemSide::describe() const {
     return {gl_.name(),
@@ -65,14 +67,22 @@ SideDescription GlSystemSide::describe() const {
 
 MatchResult match_system(SystemSide& gpu, const System& system, const SystemMatchOptions& options) {
     const SideDescription side = gpu.describe();
+    System here = beside(system);
+    std::optional<SystemTexts> texts;
+    if (const auto* gl = dynamic_cast<const GlSystemSide*>(&gpu)) {
+        texts.emplace(here, gl->passes(), gl->arithmetic());
+        texts->take_shaders(gl->shaders(), options.reference.empty() ? gl->shaders() : options.reference);
+    }
     CheckOptions check_options;
     check_options.mode = options.mode;
     check_options.frames = options.frames;
     check_options.known = known_operations(options.legal, side.profile);
-    CheckReport report = check(system, gpu, check_options);
+    CheckReport report = check(here, gpu, check_options);
     note_unset_variables(report, side.warnings);
     RunDescription run =
         describe_run(system, side, check_options, options.repeat.empty() ? this_program({}) : options.repeat);
+    if (texts)
+        run.notes = texts->notes(gpu, *check_options.known, report);
     ask_power(report, options.power_at_least);
     const bool passed = passes(report, {options.allow_undefined, false, options.power_at_least});
     return {std::move(report), std::move(run), passed};

@@ -18,6 +18,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/package/item_verbs.hpp"
+#include "crosscheck/package/own_texts.hpp"
 #include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
@@ -28,14 +29,15 @@ namespace {
 
 /// A system with its shaders, as the program was made for.
 struct OwnProgram {
-    const System& system;
+    System& system;
     const std::vector<GlPass>& passes;
+    std::filesystem::path shaders;  ///< its own
     std::vector<std::string> words; ///< of the command line, after the program's name
 };
 
 struct Options {
     std::string gl = "auto";
-    std::filesystem::path shaders;
+    std::filesystem::path shaders, reference;
     int frames = 60;
     CheckMode mode = CheckMode::resync;
     PassRules rules;
@@ -55,6 +57,11 @@ void add_gl_options(Verb& verb, Options& options) {
     add_werror_option(verb);
 }
 
+void add_reference_option(Verb& verb, Options& options) {
+    verb.add(path_option("--reference", "DIR", options.reference,
+                         "compute and vertex shaders that are the reference of their passes, instead of the twins"));
+}
+
 void add_item_options(Verb& verb, SystemItem& item) {
     verb.add(frame_option(item.frame));
     verb.add(required(text_option("--item", "I|X,Y", item.item, "the item; in an image its column and row")));
@@ -65,8 +72,11 @@ void add_item_options(Verb& verb, SystemItem& item) {
 /// The system's shaders on this machine's GL, or a recording of them.
 class OpenSide {
   public:
-    OpenSide(const OwnProgram& program, const Options& options) {
-        if (!options.trace.empty()) {
+    OpenSide(const OwnProgram& program, const Options& options) : texts_(program.system, program.passes) {
+        const bool is_recorded = !options.trace.empty();
+        if (!options.reference.empty())
+            texts_.take_references(options.reference, is_recorded ? std::nullopt : std::optional(options.shaders));
+        if (is_recorded) {
             recording_.emplace(options.trace, program.system.schema.system);
             recording_->open(program.system);
             side_ = std::make_unique<RecordedSide>(*recording_, program.system);
@@ -76,13 +86,16 @@ class OpenSide {
         if (!*gl_)
             throw Error(gl_->missing());
         side_ = std::make_unique<GlSystemSide>(*gl_, program.system, program.passes, options.shaders.string());
+        texts_.take_shaders(options.shaders, options.reference.empty() ? program.shaders : options.reference);
     }
 
     SystemSide& operator*() { return *side_; }
     SystemSide* operator->() { return side_.get(); }
     [[nodiscard]] const SystemRecording* recording() const { return recording_ ? &*recording_ : nullptr; }
+    [[nodiscard]] const SystemTexts& texts() const { return texts_; }
 
   private:
+    SystemTexts texts_;
     std::optional<SystemRecording> recording_;
     std::optional<Gl> gl_;
     std::unique_ptr<SystemSide> side_;
@@ -119,6 +132,7 @@ int check_verb(const OwnProgram& program, const Options& options) {
     OpenSide gpu(program, options);
     OutputFiles files;
     files.protect(options.shaders);
+    files.protect(options.reference);
     files.protect(options.trace);
     for (const auto& output : {options.json, options.capsule})
         if (!output.empty())
@@ -139,6 +153,8 @@ int check_verb(const OwnProgram& program, const Options& options) {
         run.shaders_untold = "recorded: " + gpu.recording()->info().shaders;
         run.notes = gpu.recording()->warnings();
     }
+    for (std::string& note : gpu.texts().notes(*gpu, *check.known, report))
+        run.notes.push_back(std::move(note));
     const auto explain_line = [&](const std::vector<std::string>& words) {
         std::vector<std::string> explain{"explain"};
         explain.insert(explain.end(), words.begin(), words.end());
@@ -146,6 +162,8 @@ int check_verb(const OwnProgram& program, const Options& options) {
             explain.insert(explain.end(), {"--gl", options.gl, "--shaders", options.shaders.string()});
         else
             explain.insert(explain.end(), {"--trace", options.trace.string()});
+        if (!options.reference.empty())
+            explain.insert(explain.end(), {"--reference", options.reference.string()});
         return this_program(explain) + legal_option_text(options.item.legal);
     };
     if (const auto words = first_item_words(program.system, report); !words.empty())
@@ -271,6 +289,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
                                        {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
                                        "resync: each frame's step alone; free: both run on by themselves"));
     add_gl_options(check, *options);
+    add_reference_option(check, *options);
     add_legal_option(check, options->item.legal);
     check.add(flag("--allow-undefined", options->rules.allow_undefined, "do not fail on what GL leaves open"));
     check.add(share_option("--power-at-least", options->rules.power_at_least,
@@ -305,6 +324,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
 
     Verb explain{"explain", "both sides of one item in one frame, value by value"};
     add_gl_options(explain, *options);
+    add_reference_option(explain, *options);
     add_item_options(explain, options->item);
     explain.add(hex_option(options->item.hexadecimal));
     add_trace_option(explain);
@@ -312,6 +332,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
 
     Verb debug{"debug", "walk through both sides by commands, typed or from a pipe"};
     add_gl_options(debug, *options);
+    add_reference_option(debug, *options);
     debug.add(integer_option("--frames", "N", {1, most_frames}, options->frames,
                              "how many frames `next` and `continue` look through"));
     add_legal_option(debug, options->item.legal);
@@ -373,7 +394,8 @@ int run_system_program(int argc, char** argv, const System& system, const std::v
     const std::string name = name_of(argc, argv);
     return telling(name, [&] {
         const ShadersReadOnce one_text_a_run;
-        const OwnProgram program{system, passes, {argv + std::min(argc, 1), argv + argc}};
+        System here = beside(system);
+        const OwnProgram program{here, passes, shaders, {argv + std::min(argc, 1), argv + argc}};
         const auto options = std::make_shared<Options>();
         options->shaders = shaders;
         return run_command_line(verbs_of(name, program, options), argc, argv, status_could_not_run);

@@ -217,9 +217,10 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
         }
         all.push_back(suspect);
     }
-    // A right value in the wrong place: the store itself.
-    for (const std::uint32_t row : stores_of_matched(wrong.trace, matched, places))
-        all.push_back({.row = row, .is_output = true});
+    // A right value in the wrong place: the store itself, unless a row before it explains all that is wrong.
+    if (std::ranges::none_of(all, [](const Suspect& one) { return one.repairs && !one.is_output; }))
+        for (const std::uint32_t row : stores_of_matched(wrong.trace, matched, places))
+            all.push_back({.row = row, .is_output = true});
     return all;
 }
 

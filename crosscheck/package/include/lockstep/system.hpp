@@ -39,6 +39,9 @@ class GlSystemSide final : public SystemSide {
     [[nodiscard]] ColorImage picture(std::size_t pass, int frame, const GlPicture& how) {
         return system_.picture(pass, frame, how);
     }
+    [[nodiscard]] const std::vector<GlPass>& passes() const { return passes_; }
+    [[nodiscard]] const std::string& shaders() const { return shaders_; } ///< the folder of the passes' files
+    [[nodiscard]] ArithmeticSwitch arithmetic() const { return arithmetic_; }
     void time_steps(bool on) { system_.time_steps(on); }
     [[nodiscard]] GlSystem::Seconds seconds() const { return system_.seconds(); }
     std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item) override {
@@ -47,6 +50,9 @@ class GlSystemSide final : public SystemSide {
 
   private:
     const Gl& gl_;
+    std::vector<GlPass> passes_;
+    std::string shaders_;
+    ArithmeticSwitch arithmetic_;
     std::vector<ShaderWarning> warnings_;
     GlSystem system_;
 };
@@ -59,9 +65,13 @@ struct SystemMatchOptions {
     bool allow_undefined = false; ///< pass what rests on what GL leaves open
     double power_at_least = 0.0;  ///< fail a run that would have shown a smaller share of the mistakes with names
     std::string repeat = {};      ///< the command that repeats it; empty: this program's own command line
+    /// A folder of texts that do what the passes have to do, as for passes_by_text (shader_text.hpp): notes name the
+    /// line of a DIVERGENT shader that has no counterpart there. The system's passes stay the reference.
+    std::string reference = {};
 };
 
-/// Runs both sides for `frames` frames; what check() found, with the heading of a report.
+/// Runs both sides for `frames` frames; what check() found, with the heading of a report. Of shaders on GL, what their
+/// texts leave open is legal, and notes say what runs of the texts find (docs/shader_text.md).
 MatchResult match_system(SystemSide& gpu, const System& system, const SystemMatchOptions& options = {});
 
 } // namespace lockstep

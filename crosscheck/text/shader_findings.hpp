@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "crosscheck/cli/text_passes.hpp"
 #include "crosscheck/judge/registered_system.hpp"
+#include "crosscheck/text/text_passes.hpp"
 #include "reference/model/profile.hpp"
 
 namespace lockstep {
@@ -16,5 +16,17 @@ namespace lockstep {
 std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts& own,
                                          const std::optional<std::filesystem::path>& shaders, const Profile& profile,
                                          int frames);
+
+/// Shaders of a run that are the user's own.
+struct OwnShaders {
+    OwnTexts texts;
+    ShaderUse use;
+    std::filesystem::path folder;    ///< where they are
+    std::filesystem::path reference; ///< where the reference's texts are; empty: the shipped ones
+};
+
+/// What the texts of a run's own shaders say: shader_findings, and where it is DIVERGENT lines_without_counterpart.
+std::vector<std::string> text_notes(const ShadedSystem& of, const OwnShaders& own, SystemSide& side,
+                                    const KnownOperations& known, const CheckReport& report);
 
 } // namespace lockstep

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/judge/check.hpp"
-#include "crosscheck/judge/registered_system.hpp"
+#include "crosscheck/judge/system.hpp"
 #include "crosscheck/text/pass_text.hpp"
 #include "gpu/shader_use.hpp"
 #include "reference/known_operations.hpp"
@@ -21,9 +20,11 @@ struct ShadedSystem {
     ArithmeticSwitch arithmetic;
 };
 
-/// The shaders of run.reference, of a scene. Throws Error where none of them is of a pass, or one is of a stage whose
-/// text is no reference.
-ShaderUse references_of(const SystemScene& scene, const RunOptions& run);
+/// Of passes, the stages that the files are of.
+std::vector<PassStages> stages_of(const std::vector<GlPass>& passes, ArithmeticSwitch arithmetic);
+
+/// `references`: the shaders of `folder`, --reference. Throws Error where one is of a stage whose text is no reference.
+void check_references(const ShaderUse& references, const std::filesystem::path& folder);
 
 /// Of each pass, its shader's text; null: it is not the user's own, or not interpreted.
 using OwnTexts = std::vector<std::shared_ptr<const PassText>>;

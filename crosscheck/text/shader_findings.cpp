@@ -1,4 +1,4 @@
-#include "crosscheck/cli/shader_findings.hpp"
+#include "crosscheck/text/shader_findings.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -75,6 +75,15 @@ std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts&
     std::sort(lines.begin(), lines.end());
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
     return lines;
+}
+
+std::vector<std::string> text_notes(const ShadedSystem& of, const OwnShaders& own, SystemSide& side,
+                                    const KnownOperations& known, const CheckReport& report) {
+    std::vector<std::string> notes = shader_findings(of, own.texts, own.folder, side.describe().profile, report.frames);
+    for (const std::string& line :
+         lines_without_counterpart(of, own.texts, own.use, own.reference, side, known, report))
+        notes.push_back("without a counterpart in the reference: " + line);
+    return notes;
 }
 
 } // namespace lockstep

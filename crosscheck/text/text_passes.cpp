@@ -1,4 +1,4 @@
-#include "crosscheck/cli/text_passes.hpp"
+#include "crosscheck/text/text_passes.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/item_judge.hpp"
@@ -41,17 +40,34 @@ bool has_text(const GlPass& pass) { return !pass.draw; }
 
 } // namespace
 
-ShaderUse references_of(const SystemScene& scene, const RunOptions& run) {
-    RunOptions of_references = run;
-    of_references.shaders = run.reference;
-    ShaderUse use = shaders_of(scene, of_references);
-    for (const UsedShader& file : use.files)
+std::vector<PassStages> stages_of(const std::vector<GlPass>& passes, ArithmeticSwitch arithmetic) {
+    std::vector<PassStages> stages;
+    for (const GlPass& pass : passes) {
+        if (pass.continues)
+            continue;
+        const StageInput input = stage_input(pass, arithmetic);
+        const auto known = std::ranges::find(stages, pass.name, &PassStages::name);
+        if (known != stages.end()) {
+            if (std::ranges::find(known->inputs, input) == known->inputs.end())
+                known->inputs.push_back(input);
+            continue;
+        }
+        stages.push_back({pass.name, {pass.stage}, {input}});
+        if (pass.draw && pass.draw->has_geometry)
+            stages.back().stages.push_back(Stage::geometry);
+        if (pass.draw)
+            stages.back().stages.push_back(Stage::fragment);
+    }
+    return stages;
+}
+
+void check_references(const ShaderUse& references, const std::filesystem::path& folder) {
+    for (const UsedShader& file : references.files)
         if (const std::optional<Stage> stage = stage_of(file.file);
             !file.foreign.empty() && stage && *stage != Stage::compute && *stage != Stage::vertex)
             throw Error(
                 fmt::format("--reference {}: {} is no compute or vertex stage; a text is the reference of these",
-                            plain_line(run.reference.string()), file.file));
-    return use;
+                            plain_line(folder.string()), file.file));
 }
 
 References take_references(const ShadedSystem& of, const ShaderUse& references, const std::filesystem::path& folder,

@@ -1,0 +1,90 @@
+#include "crosscheck/package/own_texts.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "gpu/shader_use.hpp"
+#include "lockstep/shader_text.hpp"
+#include "reference/system/item_twin.hpp"
+#include "reference/system/item_words.hpp"
+#include "reference/system/pass_by_driver.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Another's pass.
+class PassBeside final : public PassByProfile {
+  public:
+    explicit PassBeside(const ItemPass& pass) : pass_(pass) {}
+    [[nodiscard]] std::span<const std::uint8_t> keeps() const override { return pass_.keeps(); }
+
+  private:
+    [[nodiscard]] const ItemPass& on(const Profile& /*profile*/) const override { return pass_; }
+    [[nodiscard]] const ItemPass& any() const override { return pass_; }
+
+    const ItemPass& pass_;
+};
+
+/// Leaves an item as it was: what a pass is before a text makes it.
+struct Unchanged {
+    std::uint8_t resource;
+
+    template <class R> ItemWords<R> operator()(R& /*r*/, const PassInput& in, std::size_t item) const {
+        ItemWords<R> words;
+        for (const std::uint32_t word : item_words(in.before[resource], item))
+            words.add(word);
+        return words;
+    }
+};
+
+} // namespace
+
+System beside(const System& system) {
+    System made{system.name, system.schema, {}, system.mistakes, system.start, system.settings};
+    for (const std::unique_ptr<ItemPass>& pass : system.passes)
+        made.passes.push_back(pass == nullptr ? nullptr : std::make_unique<PassBeside>(*pass));
+    return made;
+}
+
+void SystemTexts::take_references(const std::filesystem::path& folder,
+                                  const std::optional<std::filesystem::path>& gpu) {
+    const ShaderUse use = shader_use(of_.system.schema.system, stages_of(of_.passes, of_.arithmetic), folder);
+    check_shader_use(use, folder);
+    check_references(use, folder);
+    references_ = lockstep::take_references(of_, use, folder, gpu);
+}
+
+void SystemTexts::take_shaders(const std::filesystem::path& folder, const std::filesystem::path& reference) {
+    own_ = {{}, shader_use(of_.system.schema.system, stages_of(of_.passes, of_.arithmetic), folder), folder, reference};
+    own_->texts = open_by_own_text(of_, own_->use, folder);
+}
+
+std::vector<std::string> SystemTexts::notes(SystemSide& side, const KnownOperations& known,
+                                            const CheckReport& report) const {
+    std::vector<std::string> notes = references_.lines;
+    if (own_)
+        for (std::string& note : text_notes(of_, *own_, side, known, report))
+            notes.push_back(std::move(note));
+    if (!references_.texts.empty())
+        for (const std::string& found :
+             shader_findings(of_, references_.texts, std::nullopt, side.describe().profile, report.frames))
+            notes.push_back("in the reference: " + found);
+    return notes;
+}
+
+std::vector<std::unique_ptr<ItemPass>> passes_by_text(const Schema& schema, const std::vector<GlPass>& passes,
+                                                      const std::string& folder) {
+    System system{.name = schema.system, .schema = schema, .passes = {}, .mistakes = {}, .start = {}, .settings = {}};
+    for (const GlPass& pass : passes)
+        system.passes.push_back(
+            item_pass({.name = pass.name,
+                       .resource = pass.resource,
+                       .stage = pass.stage == Stage::compute ? PassStage::compute : PassStage::vertex,
+                       .runs = pass.runs,
+                       .continues = pass.continues},
+                      Unchanged{pass.resource}));
+    SystemTexts(system, passes).take_references(folder, std::nullopt);
+    return std::move(system.passes);
+}
+
+} // namespace lockstep

@@ -124,9 +124,9 @@ inline void check_report(const CheckReport& report, std::uint8_t resource, std::
     if (kind <= DifferenceClass::tie && has_sets) {
         REQUIRE_FALSE(leeway.is_null());
         CHECK(is_field(leeway.at("field")));
-        const FieldId field{
-            resource,
-            static_cast<std::uint8_t>(std::find(fields.begin(), fields.end(), leeway.at("field")) - fields.begin())};
+        const FieldId field{resource, static_cast<std::uint8_t>(std::find(fields.begin(), fields.end(),
+                                                                          leeway.at("field").get<std::string>()) -
+                                                                fields.begin())};
         CHECK(leeway.at("component").get<int>() < report.schema[field].components);
         CHECK(leeway.at("place") == at);
         CHECK_THAT(text, Catch::Contains(leeway_line) && Catch::Contains(", " + place + "\n"));

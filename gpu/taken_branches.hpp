@@ -5,9 +5,9 @@
 
 namespace lockstep {
 
-/// Of each of the stage's files, by its number, whether the preprocessor takes any of its lines, as far as conditions
-/// are of integers and of macros without parameters. Of a condition that asks for more, by GL's own macros or by
-/// LOCKSTEP_TRACE, both branches count as taken. A file without lines of its own is taken.
+/// Of each of the stage's files, by its number, whether the preprocessor takes it, with LOCKSTEP_TRACE or without, as
+/// glslang says. All count as taken where a condition may ask for what only the driver knows (names of GL_, __LINE__),
+/// or where glslang refuses the text. A file without lines of its own is taken.
 std::vector<bool> taken_files(const ShaderSource& stage);
 
 } // namespace lockstep

@@ -89,22 +89,11 @@ TEST_CASE("taken branches: both ways count where what a condition asks for is no
     const TemporaryFolder folder;
     const std::string condition =
         GENERATE("#if __LINE__ >= 130", "#ifdef GL_core_profile", "#ifndef GL_es_profile", "#ifdef LOCKSTEP_TRACE",
-                 "#define OF(x) x\n#if OF(1)", "#if NOBODY_KNOWS", "#if 1 / 0", "#if 1 +", "#if", "#if (1", "#if 1 2",
-                 "#if 99999999999", "#if 2147483647 + 1", "#define A B\n#define B A\n#if A",
-                 "#define D C C\n#define C B B\n#define B A A\n#define A A9 A9\n#define A9 D\n#if A",
-                 "#ifdef GL_core_profile\n#define MAY_BE 1\n#endif\n#if MAY_BE == 1",
-                 "#ifdef GL_core_profile\n#define MAY_BE 1\n#endif\n#ifdef MAY_BE",
-                 "#ifdef GL_core_profile\n#undef ONE\n#endif\n#ifdef ONE",
-                 "#ifdef GL_core_profile\n#undef ONE\n#endif\n#ifndef GL_x\n#define ONE 1\n#endif\n#if ONE");
+                 "#if 1 +", "#if", "#if (1", "#ifdef GL_core_profile\n#define MAY_BE 1\n#endif\n#if MAY_BE == 1",
+                 "#ifdef GL_core_profile\n#undef ONE\n#endif\n#ifdef ONE");
     CAPTURE(condition);
     CHECK(is_taken(stage_of(folder, condition + include + "#endif", "float taken;\n")));
     CHECK(is_taken(stage_of(folder, condition + "\n#else" + include + "#endif", "float taken;\n")));
-}
-
-TEST_CASE("taken branches: one side decides what the other need not say") {
-    const TemporaryFolder folder;
-    CHECK_FALSE(is_taken(stage_of(folder, "#if 0 && __LINE__" + include + "#endif", "float taken;\n")));
-    CHECK_FALSE(is_taken(stage_of(folder, "#if 1 || __LINE__\n#else" + include + "#endif", "float taken;\n")));
 }
 
 TEST_CASE("taken branches: deep brackets and unmatched lines are no harm") {

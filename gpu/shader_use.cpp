@@ -90,10 +90,15 @@ bool is_module(const std::vector<ShaderSource>& stage) { return !stage.empty() &
 /// What a stage takes of the user's folder besides its own file.
 void note_included(ShaderUse& use, const ShaderSource& stage, const fs::path& user, const ShaderFolders& shipped) {
     const std::string inside = (user / "").string();
+    const auto is_users = [&](const std::string& read) {
+        return read.starts_with(inside) && fs::is_regular_file(read) && !is_used(use, read);
+    };
+    if (std::ranges::none_of(stage.files, is_users))
+        return;
     const std::vector<bool> taken = taken_files(stage);
     for (std::size_t file = 0; file < taken.size(); ++file)
         if (const std::string& read = stage.files[file]; // a shipped one may begin like a folder named shaders
-            taken[file] && read.starts_with(inside) && fs::is_regular_file(read) && !is_used(use, read)) {
+            taken[file] && is_users(read)) {
             const std::string included = read.substr(inside.size());
             use.files.push_back(
                 {included, read, shipped_file(shipped, included), is_copy(shipped, read, included), false});

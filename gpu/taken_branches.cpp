@@ -6,10 +6,8 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
 
-#include "gpu/child_process.hpp"
+#include "gpu/preprocessor.hpp"
 #include "gpu/shader_words.hpp"
 
 namespace lockstep {
@@ -46,25 +44,6 @@ std::string with_marks(const ShaderSource& stage, std::vector<bool>& has_lines) 
     return text;
 }
 
-/// Nothing: glslang refuses it.
-std::optional<std::string> preprocessed(const std::string& text, const char* preamble) {
-    constexpr int default_version = 460, client_version = 100;
-    glslang::TShader shader(EShLangVertex); // conditions know no stage
-    const char* const one = text.c_str();
-    shader.setStrings(&one, 1);
-    shader.setPreamble(preamble);
-    // Drivers go on behind a backslash in versions, too, in which glslang does not.
-    if (!says(text, "es") && !says(text, "__VERSION__"))
-        shader.setOverrideVersion(default_version);
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangVertex, glslang::EShClientOpenGL, client_version);
-    glslang::TShader::ForbidIncluder none;
-    std::string made;
-    if (!shader.preprocess(GetDefaultResources(), default_version, ENoProfile, false, false, EShMsgOnlyPreprocessor,
-                           &made, none))
-        return {};
-    return made;
-}
-
 } // namespace
 
 std::vector<bool> taken_files(const ShaderSource& stage) {
@@ -73,19 +52,13 @@ std::vector<bool> taken_files(const ShaderSource& stage) {
         return all;
     std::vector<bool> has_lines(stage.files.size());
     const std::string text = with_marks(stage, has_lines);
-    std::string made;
-    try { // it follows brackets by recursion
-        made = in_child_if_possible({"glslang", 20, true}, [&] {
-            if (!glslang::InitializeProcess())
-                return std::string();
-            const auto plain = preprocessed(text, "");
-            const auto traced = plain ? preprocessed(text, "#define LOCKSTEP_TRACE 1\n") : plain;
-            return traced ? *plain + *traced : std::string();
-        });
-    } catch (const Error&) { // then nothing is known
-    }
-    for (std::size_t file = 1; file < all.size() && !made.empty(); ++file)
-        all[file] = !has_lines[file] || made.find(mark_of(file)) != std::string::npos;
+    const std::optional<std::string> plain = preprocessed(text);
+    const auto traced = plain ? preprocessed(text, "#define LOCKSTEP_TRACE 1\n") : plain;
+    if (!traced)
+        return all;
+    for (std::size_t file = 1; file < all.size(); ++file)
+        all[file] = !has_lines[file] || plain->find(mark_of(file)) != std::string::npos ||
+                    traced->find(mark_of(file)) != std::string::npos;
     return all;
 }
 

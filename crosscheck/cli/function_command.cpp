@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -104,20 +105,48 @@ UniformValue value_of(const std::string& option, const std::string& type, const 
     return known->value(*words);
 }
 
-/// Gives each function what its file declares of `given`. Throws Error for what no file declares.
+/// What a value of an array's uniform is of each element: so many numbers as the type has.
+std::vector<std::string> elements_in(const std::string& value, const std::string& type) {
+    const auto known = std::ranges::find(uniform_table, type, &UniformType::name);
+    const std::size_t size = known == uniform_table.end() ? 1 : known->components;
+    std::vector<std::string> all;
+    std::size_t numbers = 0;
+    std::istringstream stream(value);
+    for (std::string number; std::getline(stream, number, ','); ++numbers)
+        if (numbers % size == 0)
+            all.push_back(number);
+        else
+            all.back() += "," + number;
+    return all;
+}
+
+/// Gives each function what its file declares of `given`, of an array all elements or one by its number. Throws Error
+/// for what no file declares.
 void give_uniforms(const std::vector<std::string>& given, std::span<GlslFunction> functions) {
     for (const std::string& one : given) {
         const auto [name, value] = setting_parts(one);
+        const std::string array = name.substr(0, name.find('['));
         std::vector<std::string> declared, files;
         bool found = false;
         for (GlslFunction& function : functions) {
             files.push_back(plain_line(function.file));
-            for (const function_twin::Parameter& uniform : function_twin::uniforms_of(function)) {
+            for (const function_twin::DeclaredUniform& uniform : function_twin::uniforms_of(function)) {
                 declared.push_back(uniform.name);
-                if (uniform.name != name)
+                const bool is_element = uniform.is_array && name != array;
+                if (uniform.name != (is_element ? array : name))
                     continue;
-                function.uniforms[name] = value_of(plain_line(one), uniform.type, value);
                 found = true;
+                if (is_element || !uniform.is_array) {
+                    function.uniforms[name] = value_of(plain_line(one), uniform.type, value);
+                    continue;
+                }
+                const std::vector<std::string> elements = elements_in(value, uniform.type);
+                if (uniform.elements != 0 && elements.size() != uniform.elements)
+                    throw Error(fmt::format("--uniform {}: expected {} elements of {}, each a {}", plain_line(one),
+                                            uniform.elements, name, uniform.type));
+                for (std::size_t k = 0; k < elements.size(); ++k)
+                    function.uniforms[fmt::format("{}[{}]", name, k)] =
+                        value_of(plain_line(one), uniform.type, elements[k]);
             }
         }
         if (!found)

@@ -70,7 +70,7 @@ std::string without_version(std::string text) {
 std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, const std::vector<Column>& columns) {
     const function_twin::Called called = function_twin::called(function, columns);
     const std::string text = read_shader_file(function.file);
-    const std::optional<Column> result = function_twin::column_of(function_twin::signature_of(function, text).result);
+    const std::optional<Column> result = function_twin::column_of(function_twin::signature_of(function).result);
     std::vector<std::string> arguments;
     std::size_t first = 0;
     for (const Column& column : columns) {
@@ -81,12 +81,12 @@ std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, cons
     ShaderTexts texts = called.passes.front().texts;
     texts[file] = without_version(text);
     texts[fmt::format("{}.comp", stage_name)] =
-        fmt::format("#version {} core\n#define main ls_main_of_the_file\n#include \"{}\"\n#undef main\n"
+        fmt::format("#version {} core\n#define main {}\n#include \"{}\"\n#undef main\n"
                     "layout(local_size_x = 1) in;\nlayout(std430) buffer {} {{ uint ls_words[]; }};\n"
                     "layout(std430) buffer LsResult {{ {} ls_result[]; }};\n"
                     "void main() {{\n    {} ls_made = {}({});\n{}}}\n",
-                    450, file, arguments_block, word_type(*result), function_twin::type_of(*result), function.name,
-                    fmt::join(arguments, ", "), stores(*result));
+                    450, function_twin::main_of_the_file, file, arguments_block, word_type(*result),
+                    function_twin::type_of(*result), function.name, fmt::join(arguments, ", "), stores(*result));
     const std::array stages{Stage::compute};
     return std::make_shared<ShaderSource>(
         load_stages(shader_folders(called.folder), stage_name, stages, function.defines, texts).front());
@@ -107,11 +107,9 @@ FunctionText::FunctionText(const GlslFunction& function, const std::vector<Colum
       outcomes_(*program_) {
     if (!program_->images.empty())
         throw Error(fmt::format("shader {}: a function that reads images is not interpreted", function.file));
-    for (const text::PlainUniform& uniform : program_->uniforms) {
-        const auto given = function.uniforms.find(uniform.name);
-        uniforms_.push_back(given == function.uniforms.end() ? std::vector<std::uint32_t>{} : words_of(given->second));
-    }
-    result_ = *function_twin::column_of(function_twin::signature_of(function, read_shader_file(function.file)).result);
+    for (const text::PlainUniform& uniform : program_->uniforms)
+        uniforms_.push_back(words_given(function.uniforms, uniform));
+    result_ = *function_twin::column_of(function_twin::signature_of(function).result);
 }
 
 text::Bindings FunctionText::bound(std::span<std::uint32_t> arguments, std::span<std::uint32_t> result) const {

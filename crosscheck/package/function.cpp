@@ -78,7 +78,7 @@ ShaderTexts stage_of(const GlslFunction& function, std::string_view name, const 
 /// The function's, and one behind #version, which may be the file's own, that gives the file's main another name.
 auto defines_of(const GlslFunction& function) {
     auto defines = function.defines;
-    defines.emplace_back("main", "ls_main_of_the_file");
+    defines.emplace_back("main", std::string(main_of_the_file));
     return defines;
 }
 
@@ -87,7 +87,7 @@ void check_uniforms(const GlslFunction& function) {
     if (function.uniforms.empty())
         return;
     std::vector<std::string> declared;
-    for (const Parameter& one : uniforms_of(function))
+    for (const DeclaredUniform& one : uniforms_of(function))
         declared.push_back(one.name);
     for (const auto& [name, value] : function.uniforms)
         if (std::find(declared.begin(), declared.end(), name.substr(0, name.find_first_of("[."))) == declared.end())
@@ -99,19 +99,15 @@ void check_uniforms(const GlslFunction& function) {
 
 } // namespace
 
-std::string whole_text(const GlslFunction& function) {
+ShaderSource whole_text(const GlslFunction& function) {
     constexpr std::string_view name = "file";
     return load_stages(shader_folders(folder_of(function), system_name), name, std::array{Stage::vertex},
                        defines_of(function), stage_of(function, name, ""))
-        .front()
-        .text;
+        .front();
 }
 
-std::vector<Parameter> uniforms_of(const GlslFunction& function) { return uniforms_in(whole_text(function)); }
-
 Called called(const GlslFunction& function, const std::vector<Column>& columns) {
-    const std::string text = read_shader_file(function.file);
-    const Signature signature = signature_of(function, text);
+    const Signature signature = signature_of(function);
     const std::optional<Column> result = column_of(signature.result);
     if (!result)
         fail(function, signature, fmt::format("its result must be {}", column_types));

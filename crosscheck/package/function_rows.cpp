@@ -42,7 +42,7 @@ std::size_t FunctionRows::width() const {
 }
 
 FunctionRows read_function_rows(const GlslFunction& function, const std::filesystem::path& file) {
-    const function_twin::Signature signature = function_twin::signature_of(function, read_shader_file(function.file));
+    const function_twin::Signature signature = function_twin::signature_of(function);
     std::vector<TableColumn> columns = columns_of(function, signature);
     NumberTable table = read_number_table(file, columns, function_twin::shown(function.name, signature));
     FunctionRows rows{

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <filesystem>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -10,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "gpu/preprocessor.hpp"
 #include "gpu/shader_words.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
@@ -114,12 +117,18 @@ std::optional<Column> column_of(const std::string& type) {
     return {};
 }
 
-Signature signature_of(const GlslFunction& function, const std::string& text) {
+Signature signature_of(const GlslFunction& function) {
+    const ShaderSource whole = whole_text(function);
+    const std::string own = std::filesystem::path(function.file).filename().string();
     std::vector<Signature> found;
     std::vector<std::string> names;
-    for (const auto& [name, signature] : definitions_in(text)) {
-        names.push_back(name);
-        if (name == function.name)
+    for (auto& [name, signature] : definitions_in(preprocessed(whole.text).value_or(whole.text))) {
+        const ShaderSource::Origin& origin = whole.origins[std::min(signature.line, whole.origins.size()) - 1];
+        if (std::filesystem::path(whole.files[origin.file]).filename() != own)
+            continue; // of a file that it includes
+        signature.line = static_cast<std::size_t>(origin.line);
+        names.push_back(name == main_of_the_file ? "main" : name);
+        if (names.back() == function.name)
             found.push_back(signature);
     }
     if (found.empty())
@@ -151,9 +160,10 @@ std::string shown(const std::string& name, const Signature& signature) {
     return fmt::format("{} {}({})", signature.result, name, fmt::join(types, ", "));
 }
 
-std::vector<Parameter> uniforms_in(const std::string& text) {
-    const std::vector<Word> words = words_of(text);
-    std::vector<Parameter> found;
+std::vector<DeclaredUniform> uniforms_of(const GlslFunction& function) {
+    const ShaderSource whole = whole_text(function);
+    const std::vector<Word> words = words_of(preprocessed(whole.text).value_or(whole.text));
+    std::vector<DeclaredUniform> found;
     for (std::size_t w = 0; w + 2 < words.size(); ++w) {
         if (words[w].text != "uniform")
             continue;
@@ -161,17 +171,31 @@ std::vector<Parameter> uniforms_in(const std::string& text) {
         while (at + 1 < words.size() && qualifiers.contains(words[at].text))
             ++at;
         const std::string type = words[at].text;
+        const auto size_at = [&](std::size_t bracket) {
+            std::size_t size = 0;
+            const std::string& word = words[std::min(bracket + 1, words.size() - 1)].text;
+            std::from_chars(word.data(), word.data() + word.size(), size);
+            return size;
+        };
+        const bool is_array = words[at + 1].text == "["; // uniform float[3] u_Weights
+        const std::size_t elements = is_array ? size_at(at + 1) : 0;
+        while (is_array && at + 1 < words.size() && words[at].text != "]")
+            ++at;
         int depth = 0;
         bool named = false; // of a declarator, what comes after its name is its array and its value
         for (++at; at < words.size() && words[at].text != ";"; ++at) {
             const std::string& word = words[at].text;
             if (word == "{" && !named)
                 break; // a block: its members go by it
+            if (named && word == "[" && depth == 0 && words[at - 1].text == found.back().name) {
+                found.back().is_array = true;
+                found.back().elements = size_at(at);
+            }
             depth += word == "(" || word == "[" ? 1 : word == ")" || word == "]" ? -1 : 0;
             if (word == "," && depth == 0)
                 named = false;
             else if (!named) {
-                found.push_back({type, word});
+                found.push_back({type, word, is_array, elements});
                 named = true;
             }
         }

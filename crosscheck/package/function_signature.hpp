@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu/nothing_given.hpp"
+#include "gpu/shader_source.hpp"
 #include "lockstep/function.hpp"
 
 namespace lockstep::function_twin {
@@ -21,8 +22,9 @@ struct Signature {
     std::size_t line = 1;
 };
 
-/// Of the one definition of that name. Throws Error naming those there are.
-Signature signature_of(const GlslFunction& function, const std::string& text);
+/// Of the one definition of that name in the function's file, as the preprocessor leaves it. Throws Error naming those
+/// there are.
+Signature signature_of(const GlslFunction& function);
 
 /// "vec3 bounce(vec3, float)"
 std::string shown(const std::string& name, const Signature& signature);
@@ -35,14 +37,19 @@ std::string type_of(const Column& column);
 /// Nothing for a type that no column has.
 std::optional<Column> column_of(const std::string& type);
 
-/// Each uniform that the text declares outside of blocks.
-std::vector<Parameter> uniforms_in(const std::string& text);
+/// A uniform of the function's file or of what it includes, outside of blocks.
+struct DeclaredUniform {
+    std::string type, name;
+    bool is_array = false;
+    std::size_t elements = 0; ///< of an array whose size is a number
+};
+std::vector<DeclaredUniform> uniforms_of(const GlslFunction& function);
 
-/// Those of the function's file and of what it includes.
-std::vector<Parameter> uniforms_of(const GlslFunction& function);
+/// What the file's main is called in a stage that calls the function.
+inline constexpr std::string_view main_of_the_file = "ls_main_of_the_file";
 
 /// The function's file with what it includes, compiled with the function's definitions.
-std::string whole_text(const GlslFunction& function);
+ShaderSource whole_text(const GlslFunction& function);
 
 /// Runs `run`, and says how a function's uniforms get values where one has none.
 template <class Run> auto with_advice(const Run& run) {

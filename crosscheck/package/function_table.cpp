@@ -174,7 +174,7 @@ System system_of(const GlslFunction& function, const function_twin::Called& call
 /// Whether two functions are one.
 bool is_same(const GlslFunction& a, const GlslFunction& b) {
     return a.name == b.name && a.uniforms == b.uniforms && a.defines == b.defines &&
-           function_twin::whole_text(a) == function_twin::whole_text(b);
+           function_twin::whole_text(a).text == function_twin::whole_text(b).text;
 }
 
 /// "row 7 (walls.csv:9): velocity (1, -2, 0), n (0, 1, 0)"

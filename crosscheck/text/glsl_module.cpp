@@ -19,6 +19,7 @@
 #include "crosscheck/text/condition_lines.hpp"
 #include "crosscheck/text/open_constants.hpp"
 #include "gpu/child_process.hpp"
+#include "gpu/glslang_tables.hpp"
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_words.hpp"
 #include "gpu/spirv_module.hpp"
@@ -52,15 +53,9 @@ struct Reading {
 /// it asks which one compiles it.
 std::vector<Reading> readings_of(const std::string& text) {
     constexpr int desktop = 460, es = 310;
-    bool is_es = false;
-    int version = desktop; // of a text that does not say
-    std::string_view before;
-    for (ShaderWords words(text); words.next(); before = words.token())
-        if (before == "version") {
-            std::from_chars(words.token().data(), words.token().data() + words.token().size(), version);
-            is_es = words.next() && words.token() == "es";
-            break;
-        }
+    const GlslVersion said = version_in(text);
+    const bool is_es = said.profile == "es";
+    const int version = said.number == 0 ? desktop : said.number; // of a text that does not say
     const int newer = is_es ? es : desktop;
     std::vector<Reading> all;
     for (const glslang::EShClient client : {glslang::EShClientOpenGL, glslang::EShClientVulkan}) {
@@ -86,14 +81,8 @@ EShMessages messages_of(const Reading& as) {
 
 /// `text` outlives it.
 void set_up(glslang::TShader& shader, const char* const& text, EShLanguage in, const Reading& as) {
-    constexpr int client_version = 100;
-    const bool is_vulkan = as.client == glslang::EShClientVulkan;
     shader.setStrings(&text, 1);
-    shader.setEnvInput(glslang::EShSourceGlsl, in, as.client, client_version);
-    shader.setEnvClient(as.client, is_vulkan ? glslang::EShTargetVulkan_1_1 : glslang::EShTargetOpenGL_450);
-    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    if (is_vulkan)
-        shader.setEnvInputVulkanRulesRelaxed(); // plain uniforms and atomic counters as in GL
+    set_glslang_target(shader, in, as.client);
     if (as.version != 0)
         shader.setOverrideVersion(as.version);
     shader.setAutoMapBindings(true);
@@ -180,11 +169,14 @@ std::string compiled(const ShaderSource& stage, ConstantExpressions constants) {
 std::vector<std::uint32_t> spirv_of(const ShaderSource& stage, ConstantExpressions constants) {
     if (stage.module != nullptr)
         return stage.module->words;
-    static const bool is_ready = glslang::InitializeProcess();
     static std::mutex mutex; // glslang's pools are a thread's own, its tables are not
     const std::scoped_lock lock(mutex);
-    if (!is_ready)
-        throw Error("glslang does not start");
+    for (const Reading& as : readings_of(stage.text))
+        if (as.client == glslang::EShClientOpenGL) {
+            GlslVersion version = version_in(stage.text);
+            version.number = as.version != 0 ? as.version : version.number != 0 ? version.number : default_version;
+            prepare_glslang(as.client, version);
+        }
     // It follows expressions by recursion, as deep as they are long.
     constexpr ChildRules compiler{"glslang", 20, true};
     const std::string bytes = in_child_if_possible(compiler, [&] { return compiled(stage, constants); });

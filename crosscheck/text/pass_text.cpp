@@ -75,6 +75,20 @@ std::vector<std::uint32_t> words_of(const UniformValue& value) {
         value);
 }
 
+std::vector<std::uint32_t> words_given(const Uniforms& given, const text::PlainUniform& uniform) {
+    if (const auto whole = given.find(uniform.name); whole != given.end())
+        return words_of(whole->second);
+    std::vector<std::uint32_t> words;
+    for (std::size_t element = 0; words.size() < uniform.cells; ++element) {
+        const auto one = given.find(fmt::format("{}[{}]", uniform.name, element));
+        if (one == given.end())
+            return {};
+        const std::vector<std::uint32_t> more = words_of(one->second);
+        words.insert(words.end(), more.begin(), more.end());
+    }
+    return words;
+}
+
 PassText::PassText(const Schema& schema, GlPass pass, std::vector<std::uint8_t> written, const ShaderFolders& folders,
                    ArithmeticSwitch arithmetic)
     : schema_(schema), pass_(std::move(pass)), written_(std::move(written)), arithmetic_(arithmetic),
@@ -229,9 +243,9 @@ std::vector<std::vector<std::uint32_t>> PassText::uniforms(const PassInput& in) 
     given["u_ItemCount"] = static_cast<unsigned>(in.before[pass_.resource].count());
     std::vector<std::vector<std::uint32_t>> all;
     for (const text::PlainUniform& uniform : program_.uniforms) {
-        const auto found = given.find(uniform.name);
-        all.push_back(found == given.end() ? std::vector<std::uint32_t>{} : words_of(found->second));
-        if (found != given.end() &&
+        all.push_back(words_given(given, uniform));
+        if (const auto found = given.find(uniform.name);
+            found != given.end() &&
             (all.back().size() != uniform.cells || (!uniform.is_boolean && uniform.is_real != is_real(found->second))))
             refuse(fmt::format("uniform {} has {} {}; {} {} are given", uniform.name, uniform.cells,
                                uniform.is_real ? "floats" : "integers", all.back().size(),

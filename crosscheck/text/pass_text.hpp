@@ -22,6 +22,9 @@ namespace lockstep {
 /// The words of a uniform's value.
 std::vector<std::uint32_t> words_of(const UniformValue& value);
 
+/// Of what a host gives, the words of one uniform, of an array those of its elements; none: nothing is given.
+std::vector<std::uint32_t> words_given(const Uniforms& given, const text::PlainUniform& uniform);
+
 /// The shader of a compute pass, or of a vertex pass that is captured, as a text, with what GlSystem binds to it.
 class PassText {
   public:

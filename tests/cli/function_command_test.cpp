@@ -359,6 +359,54 @@ TEST_CASE("function: uniforms of included files and of the other shader count") 
     CHECK_THAT(missing, !Contains("bindings.json"));
 }
 
+TEST_CASE("function: its definition is the one that the preprocessor takes, whatever its types are called") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string shader = setting.file("kept.glsl", "#define real float\n"
+                                                         "#ifdef FAST\n"
+                                                         "real kept(real x) { return x; }\n"
+                                                         "#else\n"
+                                                         "real kept(real x) { return x * 2.0; }\n"
+                                                         "#endif\n"
+                                                         "void main() {}\n");
+    const std::string table = setting.file("kept.csv", "x,result\n1,2\n3,6\n");
+    const auto run = [&](const std::string& name, const std::vector<std::string>& more) {
+        return run_lockstep(joined({"function", shader, name, "--table", table, "--gl", software_gl()}, more));
+    };
+    CHECK(run("kept", {}).status == 0);
+    CHECK(run("kept", {"--define", "FAST=1"}).status == 1);
+    CHECK(run("keep", {}).err == "lockstep: shader " + shader + ": defines no function keep; it has kept, main\n");
+    const std::string wider = setting.file("wider.csv", "x,y,result\n1,2,2\n");
+    CHECK_THAT(run_lockstep({"function", shader, "kept", "--table", wider, "--gl", software_gl()}).err,
+               Contains("float kept(float)"));
+}
+
+TEST_CASE("function: an array of uniforms gets all its elements, or one by its number") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string shader =
+        setting.file("sum.glsl", "#define SIZE 3\n"
+                                 "uniform float u_W[SIZE], u_One;\n"
+                                 "uniform vec2[2] u_V;\n"
+                                 "float sum(float x) { return u_W[0] * x + u_W[1] + u_W[2] + u_V[1].y + u_One; }\n");
+    const std::string table = setting.file("sum.csv", "x,result\n1,14\n2,16\n");
+    const auto run = [&](const std::vector<std::string>& uniforms) {
+        std::vector<std::string> words{"function", shader, "sum", "--table", table, "--gl", software_gl()};
+        for (const std::string& one : uniforms)
+            words.insert(words.end(), {"--uniform", one});
+        return run_lockstep(words);
+    };
+    CHECK(run({"u_W=2,3,0", "u_V=7,7,7,8", "u_One=1"}).status == 0);
+    CHECK(run({"u_W[0]=2", "u_W[1]=3", "u_W[2]=0", "u_V[0]=7,7", "u_V[1]=7,8", "u_One=1"}).status == 0);
+    CHECK(run({"u_W=2,3,1", "u_V=7,7,7,8", "u_One=1"}).status == 1);
+    CHECK_THAT(run({"u_W=2,3", "u_V=7,7,7,8", "u_One=1"}).err,
+               Contains("--uniform u_W=2,3: expected 3 elements of u_W, each a float"));
+    CHECK_THAT(run({"u_W=2,3,0", "u_V=7,7,7", "u_One=1"}).err, Contains("'7' is no vec2"));
+    CHECK_THAT(run({"u_W[0]=2", "u_V=7,7,7,8", "u_One=1"}).err, Contains("nothing is given for uniform u_W["));
+}
+
 TEST_CASE("function: each command of its page works as printed") {
     if (!have_software_gl())
         return;

@@ -149,7 +149,7 @@ std::string ExaminationResult::text(const Examination& of) const {
     if (gpu)
         all += gpu->text();
     if (reference)
-        all += reference->text();
+        all += reference->text(findings.size());
     return all;
 }
 

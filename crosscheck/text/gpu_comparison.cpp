@@ -150,7 +150,7 @@ std::string GpuComparison::text() const {
     for (const std::string& line : wrong)
         all += "driver: " + line + "\n";
     if (unjudged > 0)
-        all += fmt::format("not judged: {}\n", unjudged_for);
+        all += fmt::format("not judged, which is no pass: {}\n", unjudged_for);
     return all;
 }
 

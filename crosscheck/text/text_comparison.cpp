@@ -280,18 +280,22 @@ std::string TextComparison::verdict() const {
     return differing == 0 ? "AGREE" : differing == legal ? "LEGAL" : "DIVERGENT";
 }
 
-std::string TextComparison::text() const {
+std::string TextComparison::text(std::size_t found) const {
     std::string all;
     for (const NamedFinding& one : findings)
         all += "in the reference: " + one.text();
     if (!not_compared.empty())
         return all + fmt::format("not compared with {}: {}\n", reference, not_compared);
+    const std::size_t mistakes = found + findings.size();
+    const std::string but = mistakes == 0 || differing > legal
+                                ? ""
+                                : fmt::format(", but {} finding{} above: no pass", mistakes, mistakes == 1 ? "" : "s");
     if (differing == 0)
-        all +=
-            fmt::format("verdict   AGREE: all {} words are those of {}; {} are written\n", words, reference, written);
+        all += fmt::format("verdict   AGREE{}: all {} words are those of {}; {} are written\n", but, words, reference,
+                           written);
     else if (differing == legal)
-        all += fmt::format("verdict   LEGAL: {} of {} words differ from {}, as its text allows\n", differing, words,
-                           reference);
+        all += fmt::format("verdict   LEGAL{}: {} of {} words differ from {}, as its text allows\n", but, differing,
+                           words, reference);
     else if (words == 0)
         all += fmt::format("verdict   DIVERGENT: other vertices than those of {}\n", reference);
     else

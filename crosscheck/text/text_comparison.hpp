@@ -30,7 +30,8 @@ struct TextComparison {
 
     [[nodiscard]] bool is_right() const { return not_compared.empty() && differing == legal && findings.empty(); }
     [[nodiscard]] std::string verdict() const; ///< AGREE, LEGAL or DIVERGENT
-    [[nodiscard]] std::string text() const;
+    /// `found`: findings in the text that is compared, which the verdict then names.
+    [[nodiscard]] std::string text(std::size_t found) const;
     [[nodiscard]] nlohmann::json json() const;
 };
 

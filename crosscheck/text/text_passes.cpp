@@ -83,10 +83,12 @@ References take_references(const ShadedSystem& of, const ShaderUse& references, 
         }
         const std::shared_ptr<const PassText> text = text_of(of, p, folders);
         const bool is_gpus = gpu && text->is_text_of(shader_folders(*gpu, of.system.schema.system));
-        taken.lines.push_back(fmt::format(
+        std::string line = fmt::format(
             "reference of {}: its text in {}{}", of.passes[p].name, plain_line(folder.string()),
             is_gpus ? ", the same that the GPU runs: this says what the driver does, not whether the shader is right"
-                    : ""));
+                    : "");
+        if (std::ranges::find(taken.lines, line) == taken.lines.end()) // one shader may be that of several passes
+            taken.lines.push_back(std::move(line));
         taken.texts[p] = text;
         // What twins may do wrong is nothing that a text does.
         std::erase_if(of.system.mistakes, [&](const NamedMistake& one) { return one.pass == of.passes[p].name; });

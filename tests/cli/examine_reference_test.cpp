@@ -74,6 +74,16 @@ TEST_CASE("examine --reference: a text that leaves the same words agrees, howeve
                           texts.path("yesterday/shader.comp") + "; 360 are written\n");
 }
 
+TEST_CASE("examine --reference: a verdict beside findings says that it is no pass") {
+    TwoTexts texts;
+    const std::string unset =
+        replaced(step, "void main() {", "void main() {\n    vec4 kept;\n    if (kept.x > 1e30) return;");
+    const Outcome agrees = texts.compared(unset, step, tick);
+    INFO(agrees.out << agrees.err);
+    CHECK(agrees.status == 1);
+    CHECK_THAT(agrees.out, Contains("shader.comp: 1 finding in ") && Contains(", but 1 finding above: no pass: "));
+}
+
 TEST_CASE("examine --reference: what differs is DIVERGENT, with word, invocation and the line without a counterpart") {
     struct Slip {
         std::string what, by, word, line;

@@ -87,8 +87,8 @@ TEST_CASE("text: GLSL for Vulkan, with sets, push constants, plain uniforms and 
         for (const text::Block::Member& member : block.members)
             names.push_back(member.name + " " + std::to_string(member.leaves.front().word) + " " +
                             std::to_string(member.leaves.size()));
-    CHECK_THAT(names, Catch::UnorderedEquals(std::vector<std::string>{"Push.count 0 1", "Push.by 2 2", "turned 0 4",
-                                                                      "colour 16 2", "u_Plain 0 1"}));
+    CHECK_THAT(names, Catch::Matchers::UnorderedEquals(std::vector<std::string>{
+                          "Push.count 0 1", "Push.by 2 2", "turned 0 4", "colour 16 2", "u_Plain 0 1"}));
 }
 
 TEST_CASE("text: atomic counters count, each in words of its own") {

@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
 
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/any_order.hpp"
@@ -32,7 +35,7 @@ class TextWorlds : public Worlds<PlainArithmetic> {
     /// A sum whose terms may be taken in another order; a port of more digits may have the sum itself. Terms that are
     /// products may have a factor taken out, which rounds the result, and not what cancels.
     Real in_any_order(Real sum, std::span<const Interval> terms) {
-        Interval all = lockstep::any_order_sum(of_orders_, terms);
+        Interval all = of_all_orders(terms);
         if (!all.any && !all.is_point())
             all = interval::to_floats(interval::widen(all, static_cast<double>(terms.size() - 1)));
         if (constants_are_wide_ && !all.any)
@@ -162,6 +165,20 @@ class TextWorlds : public Worlds<PlainArithmetic> {
     static constexpr double inverse_square_root_ulps = 2.0;
     static constexpr std::int64_t most_floats = 3;
 
+    /// The ways that an invocation may go share most of their sums.
+    Interval of_all_orders(std::span<const Interval> terms) {
+        constexpr std::size_t most_kept = 1U << 16U;
+        std::string key;
+        for (const Interval& term : terms)
+            for (const double end : {term.low, term.high, term.any ? 1.0 : 0.0})
+                key.append(reinterpret_cast<const char*>(&end), sizeof end);
+        if (sums_.size() >= most_kept)
+            sums_.clear();
+        const auto [kept, is_new] = sums_.try_emplace(std::move(key));
+        if (is_new)
+            kept->second = lockstep::any_order_sum(of_orders_, terms);
+        return kept->second;
+    }
     std::uint32_t to_whole(At p, Real a) {
         const Interval x = a.set();
         return x.is_point() ? TextValues::to_int(p, x.as_float())
@@ -182,6 +199,7 @@ class TextWorlds : public Worlds<PlainArithmetic> {
     const Site* place_ = &nowhere;
     bool is_precise_ = false;
     LegalArithmetic<PlainArithmetic> of_orders_;
+    std::unordered_map<std::string, Interval> sums_; ///< of_all_orders
     bool constant_divisors_open_ = false, constants_are_wide_ = false;
 };
 

@@ -86,7 +86,9 @@ void expect_untouched(const System& system, std::size_t first, const SystemState
 void find_canary(const ItemPass& pass, const SystemState& now, int frame) {
     const View view = now[pass.resource()];
     if (const std::size_t item = find_word(view, canary_word); item < view.count())
-        throw Error(fmt::format("frame {}: {} did not write {}: its record still holds what was laid there before",
+        throw Error(fmt::format("frame {}: {} did not write {}: its record still holds what was laid there before; "
+                                "a way through it has no store, or stores what GLSL leaves undefined, as 0.0 / 0.0, "
+                                "which a compiler may leave out",
                                 frame, pass.name(), item_name(view.about(), view.extent, item)));
     if (const std::size_t item = find_word(view, margin_word); item < view.count())
         throw Error(fmt::format("frame {}: {} read past the end of a buffer, and wrote what lies there into {}", frame,

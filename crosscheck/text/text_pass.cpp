@@ -1,6 +1,8 @@
 #include "crosscheck/text/text_pass.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -25,6 +27,18 @@ std::size_t place_of(const Resource& about, const Component& one) {
     for (std::uint8_t f = 0; f < one.field; ++f)
         place += static_cast<std::size_t>(about.fields[f].components);
     return place;
+}
+
+/// What a word is in a field of another type where it has the bits of a float of a set.
+Interval bits_of(const Interval& set, Scalar scalar) {
+    const bool has_one_sign = set.low > 0.0 || set.high < 0.0 || (set.low == 0.0 && !std::signbit(set.low));
+    if (set.any || !has_one_sign)
+        return Interval::anything();
+    const auto number = [&](double x) {
+        return item_twin::set_of(std::bit_cast<std::uint32_t>(static_cast<float>(x)), scalar);
+    };
+    return set.high < 0.0 ? interval::hull(number(set.high), number(set.low))
+                          : interval::hull(number(set.low), number(set.high));
 }
 
 /// The last dispatch that some pass of it ran: those that continue the pass take what it wrote from here.
@@ -166,7 +180,10 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
                         continue;
                     const Component& c = record[place];
                     outcome.values[place_of(about, c)] =
-                        word.is_real ? word.set : item_twin::set_of(word.word, about.fields[c.field].scalar);
+                        !word.is_real ? item_twin::set_of(word.word, about.fields[c.field].scalar)
+                        : about.fields[c.field].scalar == Scalar::float32
+                            ? word.set
+                            : bits_of(word.set, about.fields[c.field].scalar);
                 }
             all.push_back(std::move(outcome));
         }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "reference/interval.hpp"
@@ -71,19 +72,33 @@ requires has_sets<R>
 struct Cell<R> {
     using Terms = std::vector<Interval>;
     typename R::Real x{};
-    std::uint32_t w = 0;
+    mutable std::uint32_t w = 0;
+    mutable R* bits_of_x = nullptr;     ///< the reading: the word is that of x, a set until the word is asked for
     bool is_real = false;               ///< of what was written: which of the two it is
     std::shared_ptr<const Terms> terms; ///< of a sum without `precise`, whose order is open; null: it is none
 
     [[nodiscard]] const typename R::Real& real() const { return x; }
-    [[nodiscard]] std::uint32_t word() const { return w; }
+    /// Of a number's bits, those of one float of its set, each in a run of its own.
+    [[nodiscard]] std::uint32_t word() const {
+        if (bits_of_x != nullptr)
+            w = std::bit_cast<std::uint32_t>(std::exchange(bits_of_x, nullptr)->one_of(x));
+        return w;
+    }
     void set(const typename R::Real& number) {
         x = number;
+        bits_of_x = nullptr;
         terms.reset();
     }
     void set(std::uint32_t word) {
         w = word;
+        bits_of_x = nullptr;
         terms.reset();
+    }
+    void set_bits_of(const typename R::Real& number, R& reading) {
+        set(number);
+        bits_of_x = &reading;
+        if (const Interval all = number.set(); all.any || all.is_point())
+            static_cast<void>(word());
     }
 };
 

@@ -218,14 +218,24 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
         for (std::uint32_t c = 0; c < s.n; ++c) {
             C* const out = cell(s.out + c);
             const C* const a = cell(s.a + c);
-            each([&](Lane l) { out[l].set(std::bit_cast<std::uint32_t>(number(a[l].real()))); });
+            each([&](Lane l) {
+                if constexpr (has_sets<R>)
+                    out[l].set_bits_of(a[l].real(), r);
+                else
+                    out[l].set(std::bit_cast<std::uint32_t>(number(a[l].real())));
+            });
         }
         break;
     case code::bits_as_real:
         for (std::uint32_t c = 0; c < s.n; ++c) {
             C* const out = cell(s.out + c);
             const C* const a = cell(s.a + c);
-            each([&](Lane l) { out[l].set(r.uniform(in_text, std::bit_cast<float>(a[l].word()))); });
+            each([&](Lane l) {
+                if constexpr (has_sets<R>)
+                    if (a[l].bits_of_x != nullptr)
+                        return out[l].set(a[l].real());
+                out[l].set(r.uniform(in_text, std::bit_cast<float>(a[l].word())));
+            });
         }
         break;
     default:

@@ -133,7 +133,7 @@ class TextWorlds : public Worlds<PlainArithmetic> {
             return monotone(a, most); // beyond, floats are integers
         const auto first = static_cast<int>(least(x.as_float())),
                    last = static_cast<int>(most(static_cast<float>(x.high)));
-        if (last - first > most_floats)
+        if (last - first > most_integers)
             return make({a}, [&](const auto&) { return Interval(double(first), double(last)); });
         return uniform(*place_, static_cast<float>(choose(first, last)));
     }
@@ -163,7 +163,8 @@ class TextWorlds : public Worlds<PlainArithmetic> {
 
   private:
     static constexpr double inverse_square_root_ulps = 2.0;
-    static constexpr std::int64_t most_floats = 3;
+    static constexpr std::int64_t most_floats = 15;
+    static constexpr int most_integers = 3;
 
     /// The ways that an invocation may go share most of their sums.
     Interval of_all_orders(std::span<const Interval> terms) {

@@ -206,6 +206,31 @@ TEST_CASE("text outcomes: floor, ceil, round, integers and packed words take eac
     CHECK(values("x[0] = float(packUnorm4x8(vec4(x[2] * 0.75)));").size() == 1);
 }
 
+TEST_CASE("text outcomes: a float's bits are a set until an integer operation asks for them") {
+    const std::vector<float> given{0, 0.7F};
+    const Interval sine = set_of("sin(x[1])", given);
+    REQUIRE(ulps(sine) > 100);
+    const Interval back =
+        Statements("uint bits = floatBitsToUint(sin(x[1]));\nx[0] = uintBitsToFloat(bits);").set(given);
+    CHECK(back.low == sine.low);
+    CHECK(back.high == sine.high);
+
+    const auto kept =
+        outcomes("uint w[2];\nw[0] = floatBitsToUint(sin(x[1]));\nw[1] = 0u;\nx[0] = uintBitsToFloat(w[0]);", given);
+    REQUIRE(kept.size() == 1);
+    CHECK(kept[0].written[0].is_real);
+    CHECK(kept[0].written[0].set.low == sine.low);
+
+    // Of an integer operation each float is a way; of too many nothing is said.
+    const auto ways = outcomes("x[0] = uintBitsToFloat(floatBitsToUint(inversesqrt(x[1])) & 0xffffffffu);", given);
+    CHECK(ways.size() > 1);
+    for (const text::InvocationOutcome& one : ways)
+        CHECK(one.undefined == Undefined::none);
+    const auto too_many = outcomes("x[0] = uintBitsToFloat(floatBitsToUint(sin(x[1])) & 0xffffffffu);", given);
+    REQUIRE(too_many.size() == 1);
+    CHECK(too_many[0].undefined == Undefined::undecided);
+}
+
 TEST_CASE("text outcomes: what was written is read back as a set, and what lies in memory stays") {
     const auto found = outcomes("x[0] = x[1] * x[2];\nx[3] = x[0] - x[1] * x[2];", {0, 1.1F, 1.3F});
     REQUIRE(found.size() == 1);

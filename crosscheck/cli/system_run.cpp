@@ -12,8 +12,8 @@
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/package/text_passes.hpp"
 #include "crosscheck/report/overlay.hpp"
-#include "crosscheck/text/text_passes.hpp"
 #include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
 

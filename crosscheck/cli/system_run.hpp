@@ -11,8 +11,8 @@
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/systems.hpp"
 #include "crosscheck/judge/registered_system.hpp"
+#include "crosscheck/package/text_passes.hpp"
 #include "crosscheck/record/system_recording.hpp"
-#include "crosscheck/text/text_passes.hpp"
 #include "gpu/shader_use.hpp"
 #include "lockstep/system.hpp"
 

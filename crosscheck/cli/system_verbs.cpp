@@ -20,6 +20,8 @@
 #include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/package/shader_findings.hpp"
+#include "crosscheck/package/text_passes.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/report/colour.hpp"
@@ -30,8 +32,6 @@
 #include "crosscheck/report/run_to_run.hpp"
 #include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
-#include "crosscheck/text/shader_findings.hpp"
-#include "crosscheck/text/text_passes.hpp"
 #include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
 

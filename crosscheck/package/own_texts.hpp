@@ -6,9 +6,9 @@
 
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/system.hpp"
+#include "crosscheck/package/shader_findings.hpp"
+#include "crosscheck/package/text_passes.hpp"
 #include "crosscheck/report/report.hpp"
-#include "crosscheck/text/shader_findings.hpp"
-#include "crosscheck/text/text_passes.hpp"
 #include "lockstep/system.hpp"
 
 namespace lockstep {

@@ -1,4 +1,4 @@
-#include "crosscheck/text/text_passes.hpp"
+#include "crosscheck/package/text_passes.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "crosscheck/text/shader_findings.hpp"
+#include "crosscheck/package/shader_findings.hpp"
 
 #include <algorithm>
 #include <memory>

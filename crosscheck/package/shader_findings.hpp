@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "crosscheck/judge/registered_system.hpp"
-#include "crosscheck/text/text_passes.hpp"
+#include "crosscheck/package/text_passes.hpp"
 #include "reference/model/profile.hpp"
 
 namespace lockstep {

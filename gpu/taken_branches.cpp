@@ -53,7 +53,8 @@ std::vector<bool> taken_files(const ShaderSource& stage) {
     std::vector<bool> has_lines(stage.files.size());
     const std::string text = with_marks(stage, has_lines);
     const std::optional<std::string> plain = preprocessed(text);
-    const auto traced = plain ? preprocessed(text, "#define LOCKSTEP_TRACE 1\n") : plain;
+    const auto traced =
+        plain && says(text, "LOCKSTEP_TRACE") ? preprocessed(text, "#define LOCKSTEP_TRACE 1\n") : plain;
     if (!traced)
         return all;
     for (std::size_t file = 1; file < all.size(); ++file)

@@ -123,14 +123,19 @@ std::vector<std::string> elements_in(const std::string& value, const std::string
 /// Gives each function what its file declares of `given`, of an array all elements or one by its number. Throws Error
 /// for what no file declares.
 void give_uniforms(const std::vector<std::string>& given, std::span<GlslFunction> functions) {
+    std::vector<std::vector<function_twin::DeclaredUniform>> uniforms_of_each;
+    for (const GlslFunction& function : functions)
+        uniforms_of_each.push_back(given.empty() ? std::vector<function_twin::DeclaredUniform>()
+                                                 : function_twin::uniforms_of(function));
     for (const std::string& one : given) {
         const auto [name, value] = setting_parts(one);
         const std::string array = name.substr(0, name.find('['));
         std::vector<std::string> declared, files;
         bool found = false;
-        for (GlslFunction& function : functions) {
+        for (std::size_t f = 0; f < functions.size(); ++f) {
+            GlslFunction& function = functions[f];
             files.push_back(plain_line(function.file));
-            for (const function_twin::DeclaredUniform& uniform : function_twin::uniforms_of(function)) {
+            for (const function_twin::DeclaredUniform& uniform : uniforms_of_each[f]) {
                 declared.push_back(uniform.name);
                 const bool is_element = uniform.is_array && name != array;
                 if (uniform.name != (is_element ? array : name))

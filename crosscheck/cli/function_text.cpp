@@ -67,10 +67,9 @@ std::string without_version(std::string text) {
 }
 
 /// A compute stage that calls the function with the words of a row, and stores its result.
-std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, const std::vector<Column>& columns) {
-    const function_twin::Called called = function_twin::called(function, columns);
+std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, const function_twin::Called& called,
+                                              const std::vector<Column>& columns) {
     const std::string text = read_shader_file(function.file);
-    const std::optional<Column> result = function_twin::column_of(function_twin::signature_of(function).result);
     std::vector<std::string> arguments;
     std::size_t first = 0;
     for (const Column& column : columns) {
@@ -80,13 +79,13 @@ std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, cons
     const std::string file = std::filesystem::path(function.file).filename().string();
     ShaderTexts texts = called.passes.front().texts;
     texts[file] = without_version(text);
-    texts[fmt::format("{}.comp", stage_name)] =
-        fmt::format("#version {} core\n#define main {}\n#include \"{}\"\n#undef main\n"
-                    "layout(local_size_x = 1) in;\nlayout(std430) buffer {} {{ uint ls_words[]; }};\n"
-                    "layout(std430) buffer LsResult {{ {} ls_result[]; }};\n"
-                    "void main() {{\n    {} ls_made = {}({});\n{}}}\n",
-                    450, function_twin::main_of_the_file, file, arguments_block, word_type(*result),
-                    function_twin::type_of(*result), function.name, fmt::join(arguments, ", "), stores(*result));
+    texts[fmt::format("{}.comp", stage_name)] = fmt::format(
+        "#version {} core\n#define main {}\n#include \"{}\"\n#undef main\n"
+        "layout(local_size_x = 1) in;\nlayout(std430) buffer {} {{ uint ls_words[]; }};\n"
+        "layout(std430) buffer LsResult {{ {} ls_result[]; }};\n"
+        "void main() {{\n    {} ls_made = {}({});\n{}}}\n",
+        450, function_twin::main_of_the_file, file, arguments_block, word_type(called.result),
+        function_twin::type_of(called.result), function.name, fmt::join(arguments, ", "), stores(called.result));
     const std::array stages{Stage::compute};
     return std::make_shared<ShaderSource>(
         load_stages(shader_folders(called.folder), stage_name, stages, function.defines, texts).front());
@@ -101,15 +100,17 @@ std::vector<std::uint32_t> arguments_of(const FunctionRows& rows, std::size_t ro
 
 FunctionText::FunctionText(const GlslFunction& function, const std::vector<Column>& columns, Profile profile,
                            const KnownOperations& known)
-    : profile_(std::move(profile)), known_(known), source_(caller_of(function, columns)),
-      program_(std::make_unique<const text::Program>(text::decoded(text::read_module(
-          spirv_of(*source_), [source = source_](std::uint32_t line) { return line_name(*source, line); })))),
-      outcomes_(*program_) {
+    : FunctionText(function, function_twin::called(function, columns), columns, std::move(profile), known) {}
+
+FunctionText::FunctionText(const GlslFunction& function, const function_twin::Called& called,
+                           const std::vector<Column>& columns, Profile profile, const KnownOperations& known)
+    : profile_(std::move(profile)), known_(known), source_(caller_of(function, called, columns)),
+      program_(std::make_unique<const text::Program>(program_of(source_))), outcomes_(*program_),
+      result_(called.result) {
     if (!program_->images.empty())
         throw Error(fmt::format("shader {}: a function that reads images is not interpreted", function.file));
     for (const text::PlainUniform& uniform : program_->uniforms)
         uniforms_.push_back(words_given(function.uniforms, uniform));
-    result_ = *function_twin::column_of(function_twin::signature_of(function).result);
 }
 
 text::Bindings FunctionText::bound(std::span<std::uint32_t> arguments, std::span<std::uint32_t> result) const {

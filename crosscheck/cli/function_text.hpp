@@ -39,6 +39,8 @@ class FunctionText {
                                                    const TextTaken& taken) const;
 
   private:
+    FunctionText(const GlslFunction& function, const function_twin::Called& called,
+                 const std::vector<function_twin::Column>& columns, Profile profile, const KnownOperations& known);
     [[nodiscard]] text::Bindings bound(std::span<std::uint32_t> arguments, std::span<std::uint32_t> result) const;
 
     Profile profile_;

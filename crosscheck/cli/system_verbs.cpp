@@ -258,10 +258,9 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
         about.notes.insert(about.notes.end(), some.begin(), some.end());
     if (!input.is_recorded())
         add_text_notes(about, input.shaded(), input.own_texts(), run, side, *options.known, report);
-    if (!input.reference_texts().empty())
-        for (const std::string& found : shader_findings(input.shaded(), input.reference_texts(), std::nullopt,
-                                                        side.describe().profile, report.frames))
-            about.notes.push_back("in the reference: " + found);
+    for (std::string& note :
+         reference_notes(input.shaded(), input.reference_texts(), side.describe().profile, report.frames))
+        about.notes.push_back(std::move(note));
     if (input.is_recorded() && run.frames < input.recorded_frames())
         about.notes.push_back(
             fmt::format("{} of the {} frames recorded were compared", run.frames, input.recorded_frames()));

@@ -140,7 +140,8 @@ Called called(const GlslFunction& function, const std::vector<Column>& columns) 
     Called made{
         checked({std::string(system_name), {{.name = "rows", .item = "row", .title = "the table", .fields = fields}}}),
         {},
-        {}};
+        folder_of(function),
+        *result};
     GlPass pass;
     pass.name = pass_name;
     pass.stage = Stage::vertex;
@@ -149,7 +150,6 @@ Called called(const GlslFunction& function, const std::vector<Column>& columns) 
     pass.defines = defines_of(function);
     pass.texts = stage_of(function, pass_name, end);
     made.passes.push_back(std::move(pass));
-    made.folder = folder_of(function);
     return made;
 }
 

@@ -65,10 +65,8 @@ std::vector<std::string> SystemTexts::notes(SystemSide& side, const KnownOperati
     if (own_)
         for (std::string& note : text_notes(of_, *own_, side, known, report))
             notes.push_back(std::move(note));
-    if (!references_.texts.empty())
-        for (const std::string& found :
-             shader_findings(of_, references_.texts, std::nullopt, side.describe().profile, report.frames))
-            notes.push_back("in the reference: " + found);
+    for (std::string& note : reference_notes(of_, references_.texts, side.describe().profile, report.frames))
+        notes.push_back(std::move(note));
     return notes;
 }
 

@@ -77,6 +77,15 @@ std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts&
     return lines;
 }
 
+std::vector<std::string> reference_notes(const ShadedSystem& of, const OwnTexts& references, const Profile& profile,
+                                         int frames) {
+    std::vector<std::string> notes;
+    if (!references.empty())
+        for (const std::string& found : shader_findings(of, references, std::nullopt, profile, frames))
+            notes.push_back("in the reference: " + found);
+    return notes;
+}
+
 std::vector<std::string> text_notes(const ShadedSystem& of, const OwnShaders& own, SystemSide& side,
                                     const KnownOperations& known, const CheckReport& report) {
     std::vector<std::string> notes = shader_findings(of, own.texts, own.folder, side.describe().profile, report.frames);

@@ -17,6 +17,10 @@ std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts&
                                          const std::optional<std::filesystem::path>& shaders, const Profile& profile,
                                          int frames);
 
+/// The same of the texts that are references of passes, in a check of so many frames.
+std::vector<std::string> reference_notes(const ShadedSystem& of, const OwnTexts& references, const Profile& profile,
+                                         int frames);
+
 /// Shaders of a run that are the user's own.
 struct OwnShaders {
     OwnTexts texts;

@@ -164,6 +164,21 @@ std::string compiled(const ShaderSource& stage, ConstantExpressions constants) {
                                     : fmt::format("shader {}", first_compile_error(furthest.log, stage)));
 }
 
+/// Makes the tables of the text's own version, and of the one that takes its place where it has no SPIR-V.
+void prepare_for(const std::string& text) {
+    GlslVersion version = version_in(text);
+    if (version.number == 0)
+        version.number = default_version;
+    const int first_with_spirv = version.profile == "es" ? 310 : 330;
+    const bool is_older = version.number < first_with_spirv;
+    prepare_glslang(glslang::EShClientOpenGL, version);
+    for (const Reading& as : readings_of(text))
+        if (is_older && as.client == glslang::EShClientOpenGL && as.version != 0) {
+            version.number = as.version;
+            prepare_glslang(as.client, version);
+        }
+}
+
 } // namespace
 
 std::vector<std::uint32_t> spirv_of(const ShaderSource& stage, ConstantExpressions constants) {
@@ -171,12 +186,7 @@ std::vector<std::uint32_t> spirv_of(const ShaderSource& stage, ConstantExpressio
         return stage.module->words;
     static std::mutex mutex; // glslang's pools are a thread's own, its tables are not
     const std::scoped_lock lock(mutex);
-    for (const Reading& as : readings_of(stage.text))
-        if (as.client == glslang::EShClientOpenGL) {
-            GlslVersion version = version_in(stage.text);
-            version.number = as.version != 0 ? as.version : version.number != 0 ? version.number : default_version;
-            prepare_glslang(as.client, version);
-        }
+    prepare_for(stage.text);
     // It follows expressions by recursion, as deep as they are long.
     constexpr ChildRules compiler{"glslang", 20, true};
     const std::string bytes = in_child_if_possible(compiler, [&] { return compiled(stage, constants); });

@@ -29,8 +29,10 @@ std::size_t place_of(const Resource& about, const Component& one) {
     return place;
 }
 
-/// What a word is in a field of another type where it has the bits of a float of a set.
+/// What a word that has the bits of a float of a set is in a field of this type.
 Interval bits_of(const Interval& set, Scalar scalar) {
+    if (scalar == Scalar::float32)
+        return set;
     const bool has_one_sign = set.low > 0.0 || set.high < 0.0 || (set.low == 0.0 && !std::signbit(set.low));
     if (set.any || !has_one_sign)
         return Interval::anything();
@@ -179,11 +181,9 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
                     if (place >= record.size())
                         continue;
                     const Component& c = record[place];
+                    const Scalar scalar = about.fields[c.field].scalar;
                     outcome.values[place_of(about, c)] =
-                        !word.is_real ? item_twin::set_of(word.word, about.fields[c.field].scalar)
-                        : about.fields[c.field].scalar == Scalar::float32
-                            ? word.set
-                            : bits_of(word.set, about.fields[c.field].scalar);
+                        word.is_real ? bits_of(word.set, scalar) : item_twin::set_of(word.word, scalar);
                 }
             all.push_back(std::move(outcome));
         }

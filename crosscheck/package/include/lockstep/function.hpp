@@ -84,6 +84,7 @@ struct Called {
     Schema schema;
     std::vector<GlPass> passes;
     std::string folder;
+    Column result;
 };
 
 /// Throws Error with FILE:LINE where there is no such function, where it takes or returns something else, and for a

@@ -195,7 +195,7 @@ TEST_CASE("collision: floats without precise are legal in any order, unless they
     CHECK(check(replaced(text, " * u_Tick", " * (1.001 * u_Tick)"), {}).status == 1);
     // What says `precise` has the order that it asks for.
     const Outcome precise = check(replaced(shipped("collision/collision_pass.vert"), "v_Speed = ls_length(temp);",
-                                           "v_Speed = sqrt(temp.z * temp.z + (temp.y * temp.y + temp.x * temp.x));"),
+                                           "v_Speed = sqrt(temp.y * temp.y + (temp.z * temp.z + temp.x * temp.x));"),
                                   {});
     CHECK(precise.status == 1);
     CHECK_THAT(precise.out, Contains("verdict   DIVERGENT") && !Contains("floats without `precise`"));

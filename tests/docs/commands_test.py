@@ -171,6 +171,7 @@ class Page:
         # Another driver has other numbers.
         driver = [line for line in shown.text.split("\n") if line.startswith("GL  ")]
         if driver and driver[0].rstrip() not in output:
+            output = re.sub(r"(Mesa [\d.]+)-[^\s;]+", r"\1", output)  # the package's own version behind Mesa's
             output = re.sub(r"\d[\d.,]*", "0", output)
             shown = Block(shown.line, re.sub(r"\d[\d.,]*", "0", shown.text), "")
         lines = iter(output.split("\n"))

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "crosscheck/scene/profiles.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/model/random.hpp"
@@ -46,7 +47,7 @@ TEST_CASE("text: each compute stage of collision makes its twin's bits, and the 
     const auto context = open_context(software_gl());
     if (!context || !context->describe().compute)
         return;
-    const Profile profile = named_profile("llvmpipe");
+    const Profile profile = measured_profile(*context);
     const std::vector<std::pair<std::string, std::function<void(Switches&)>>> variants{
         {"step=compute", [](Switches& s) { s.step = Step::compute; }},
         {"step=compute arithmetic=exact",

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <lockstep/function.hpp>
 
+#include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "gpu/collision/render_pass.hpp"
 #include "gpu/collision/simulation.hpp"
@@ -59,7 +60,7 @@ Rows drawn(const ShippedScene& shipped, int frames) {
     const SystemScene scene = shipped.load();
     const std::string shaders = "shaders/" + shipped.system;
     static_cast<void>(GlSystemSide(test::gl(), scene.system, scene.passes, shaders, scene.arithmetic)); // GL is ready
-    const DrawWatch watch(named_profile("llvmpipe"));
+    const DrawWatch watch(test::gl().profile());
     GlSystemSide side(test::gl(), scene.system, scene.passes, shaders, scene.arithmetic);
     SystemState state = scene.system.start;
     side.upload(state.view());
@@ -83,7 +84,8 @@ TEST_CASE("text: each stage that collision draws with makes the GPU's words") {
     const auto context = open_context(software_gl());
     if (!context || !context->describe().compute)
         return;
-    const auto draw = [](const std::vector<std::string>& set, const std::string& preset) {
+    const Profile profile = measured_profile(*context);
+    const auto draw = [&](const std::vector<std::string>& set, const std::string& preset) {
         SceneOptions options;
         options.particles = 1000;
         options.preset = preset;
@@ -95,7 +97,7 @@ TEST_CASE("text: each stage that collision draws with makes the GPU's words") {
         scene.height = 48;
         scene.render_width = 96;
         scene.render_height = 64;
-        const DrawWatch watch(named_profile("llvmpipe"));
+        const DrawWatch watch(profile);
         GpuSimulation gpu(scene, {});
         Particles particles;
         for (int frame = 0; frame < 6; ++frame)
@@ -145,7 +147,7 @@ TEST_CASE("text: the stage that calls a function makes the GPU's words") {
         };
         table.emplace_back(glm::vec3(part(1), part(2), part(3)), glm::vec3(part(4), part(5), part(6)));
     }
-    const DrawWatch watch(named_profile("llvmpipe"));
+    const DrawWatch watch(test::gl().profile());
     const MatchResult result = match_function(
         test::gl(), {file, "bounce", {{"u_Kept", 0.5F}}}, table, [](auto& r, const auto& velocity, const auto& n) {
             const auto into = (velocity.x * n.x + velocity.y * n.y) + velocity.z * n.z;

@@ -35,7 +35,7 @@ bool has_order(std::uint16_t op) {
     }
 }
 
-/// The lines of the user's files with such arithmetic, as far as a stage is interpreted.
+/// The lines of the user's files with such arithmetic that an output depends on, as far as a stage is interpreted.
 void add_open_lines(const std::shared_ptr<const ShaderSource>& stage, const ShaderUse& use,
                     std::set<std::string>& lines) {
     const auto is_own = [&](const std::string& line) {
@@ -44,7 +44,7 @@ void add_open_lines(const std::shared_ptr<const ShaderSource>& stage, const Shad
         });
     };
     try {
-        const text::Program program = program_of(stage);
+        const text::Program program = live_program_of(stage);
         for (std::size_t k = 0; k < program.steps.size(); ++k)
             if (has_order(program.steps[k].op) && program.precise[k] == 0)
                 if (const std::string line = program.line_name(program.lines[k]); is_own(line))

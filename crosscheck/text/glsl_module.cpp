@@ -15,6 +15,7 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <spirv-tools/optimizer.hpp>
 
 #include "crosscheck/text/condition_lines.hpp"
 #include "crosscheck/text/open_constants.hpp"
@@ -195,9 +196,36 @@ std::vector<std::uint32_t> spirv_of(const ShaderSource& stage, ConstantExpressio
     return with_condition_lines(words, stage.text);
 }
 
-text::Program program_of(const std::shared_ptr<const ShaderSource>& stage) {
+namespace {
+
+text::Program decoded_words(std::vector<std::uint32_t> words, const std::shared_ptr<const ShaderSource>& stage) {
     return text::decoded(
-        text::read_module(spirv_of(*stage), [stage](std::uint32_t line) { return line_name(*stage, line); }));
+        text::read_module(std::move(words), [stage](std::uint32_t line) { return line_name(*stage, line); }));
+}
+
+/// As they are where the passes do not take them.
+std::vector<std::uint32_t> without_dead_code(const std::vector<std::uint32_t>& words) {
+    spvtools::Optimizer optimizer(SPV_ENV_UNIVERSAL_1_5);
+    optimizer.SetMessageConsumer([](spv_message_level_t, const char*, const spv_position_t&, const char*) {});
+    optimizer.RegisterPass(spvtools::CreateInlineExhaustivePass())
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+        .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+        .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    spvtools::OptimizerOptions options;
+    options.set_run_validator(false);
+    std::vector<std::uint32_t> live;
+    return optimizer.Run(words.data(), words.size(), &live, options) ? live : words;
+}
+
+} // namespace
+
+text::Program program_of(const std::shared_ptr<const ShaderSource>& stage) {
+    return decoded_words(spirv_of(*stage), stage);
+}
+
+text::Program live_program_of(const std::shared_ptr<const ShaderSource>& stage) {
+    return decoded_words(without_dead_code(spirv_of(*stage)), stage);
 }
 
 std::string line_name(const ShaderSource& stage, std::uint32_t line) {

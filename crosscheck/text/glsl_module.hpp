@@ -25,4 +25,8 @@ std::string line_name(const ShaderSource& stage, std::uint32_t line);
 /// is not interpreted.
 text::Program program_of(const std::shared_ptr<const ShaderSource>& stage);
 
+/// The same without what no output depends on, by SPIRV-Tools' passes. It computes the same, by other steps: not for a
+/// run that is shown.
+text::Program live_program_of(const std::shared_ptr<const ShaderSource>& stage);
+
 } // namespace lockstep

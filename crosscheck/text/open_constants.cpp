@@ -9,10 +9,12 @@
 
 #include <fmt/format.h>
 
+#include "reference/text/program.hpp"
+
 namespace lockstep {
 namespace {
 
-constexpr std::string_view through = "lockstep_given";
+constexpr std::string_view through = text::counted_name;
 
 /// The functions whose operands GLSL restricts.
 constexpr auto restricted = std::to_array<std::string_view>(

@@ -116,6 +116,10 @@ std::uint32_t Decoder::take_cells(std::uint32_t count) {
 std::uint32_t Decoder::zeroed_cells(std::uint32_t variable, std::uint32_t type_id) {
     const std::uint32_t first = take_cells(type(type_id).cells);
     p_.names.push_back({module_.ids[variable].name, first, type(type_id).cells});
+    if (p_.names.back().name.find(counted_name) != std::string::npos) {
+        p_.counted.resize(first);
+        p_.counted.resize(first + type(type_id).cells, 1);
+    }
     return first;
 }
 

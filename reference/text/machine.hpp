@@ -135,8 +135,16 @@ template <class R, int W> class Machine {
     }
 
     // What a watched run looks for: machine_checks.hpp.
+    /// Why a cell has no value: a variable that was never set, or an operation that GLSL gives no result for.
     struct Unset {
         std::uint32_t cell = 0, line = 0; ///< where it comes from, from 1, and the first operation's that used it
+        std::uint32_t result = 0;         ///< of results_without_value_, from 1; 0: it is a variable's
+    };
+    /// An operation of a line that had operands without a result; a finding where something depends on the result.
+    struct ResultWithoutValue {
+        std::string_view rule;
+        std::uint32_t line = 0;
+        std::array<std::string, W> what{}; ///< of the last time, in each lane
     };
     [[nodiscard]] bool is_watched() const { return !unset_.empty(); }
     Unset* unset(std::uint32_t number) { return unset_.data() + std::size_t{number} * W; }
@@ -146,6 +154,8 @@ template <class R, int W> class Machine {
     }
     void need(const Step& s, std::uint32_t first, std::uint32_t n);
     void need_shared(const Step& s, std::uint32_t word, Lane l);
+    void depend(const Unset& from, Place at, Lane l);
+    template <class What> Unset without_value(std::string_view rule, Place at, Lane l, const What& what);
     void follow(const Step& s);
     void check(const Step& s);
 
@@ -230,6 +240,7 @@ template <class R, int W> class Machine {
     std::vector<std::uint32_t> returns_; ///< of each depth, W
     std::vector<C> moved_;
     std::vector<Unset> moved_unset_;
+    std::vector<ResultWithoutValue> results_without_value_;
     std::array<std::vector<C>, W> made_;
     std::array<std::vector<std::uint32_t>, W> ends_;
     std::array<std::uint32_t, W> vertices_{};

@@ -129,16 +129,37 @@ inline double determinant(std::span<const double> m) {
     return sum;
 }
 
+/// A finding: something depends on what has no value.
+template <class R, int W> void Machine<R, W>::depend(const Unset& from, Place at, Lane l) {
+    if (from.result != 0) {
+        const ResultWithoutValue& made = results_without_value_[from.result - 1];
+        memory_.findings().add(made.rule, {made.line, at.invocation}, [&] { return made.what[l]; });
+        return;
+    }
+    memory_.findings().add(unset_rule, {from.line != 0 ? from.line : at.line, at.invocation},
+                           [&] { return p_.variable_at(from.cell - 1); });
+}
+
+/// What an operation makes that has no result, in one lane.
+template <class R, int W>
+template <class What>
+auto Machine<R, W>::without_value(std::string_view rule, Place at, Lane l, const What& what) -> Unset {
+    std::uint32_t k = 0;
+    while (k < results_without_value_.size() &&
+           (results_without_value_[k].line != at.line || results_without_value_[k].rule != rule))
+        ++k;
+    if (k == results_without_value_.size())
+        results_without_value_.push_back({.rule = rule, .line = at.line});
+    results_without_value_[k].what[l] = what();
+    return {.cell = 1, .line = at.line, .result = k + 1};
+}
+
 /// Something depends on n cells from `first`.
 template <class R, int W> void Machine<R, W>::need(const Step& s, std::uint32_t first, std::uint32_t n) {
     active([&](Lane l) {
         for (std::uint32_t c = 0; c < n; ++c)
-            if (const Unset from = unset(first + c)[l]; from.cell != 0) {
-                const Place at = place(s, l);
-                memory_.findings().add(unset_rule, {from.line != 0 ? from.line : at.line, at.invocation},
-                                       [&] { return p_.variable_at(from.cell - 1); });
-                return;
-            }
+            if (const Unset from = unset(first + c)[l]; from.cell != 0)
+                return depend(from, place(s, l), l);
     });
 }
 
@@ -166,6 +187,8 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
     case code::copy:
     case code::real_bits:
     case code::bits_as_real:
+        if (p_.is_counted(s.out))
+            need(s, s.a, s.n);
         active([&](Lane l) {
             for (std::uint32_t c = 0; c < s.n; ++c)
                 unset(s.out + c)[l] = s.out + c < p_.output_cells ? read(unset(s.a + c)[l], l) : unset(s.a + c)[l];
@@ -178,6 +201,8 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
         });
         return;
     case code::store_variable:
+        if (p_.is_counted(s.a))
+            need(s, s.c, s.n);
         active([&](Lane l) {
             for (std::uint32_t c = 0; c < s.n; ++c)
                 unset(s.a + cell(s.b)[l].word() + c)[l] = unset(s.c + c)[l];
@@ -291,7 +316,8 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
     });
 }
 
-/// Operands of a step that is about to run for which GLSL defines no result.
+/// Marks what a step that is about to run makes of operands for which GLSL defines no result. Of operands without a value
+/// it is a mere consequence.
 template <class R, int W> void Machine<R, W>::check(const Step& s) {
     const auto x = [&](std::uint32_t first, std::uint32_t c, Lane l) {
         return static_cast<float>(cell(first + c)[l].real());
@@ -299,16 +325,18 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
     const auto i = [&](std::uint32_t first, std::uint32_t c, Lane l) {
         return static_cast<std::int32_t>(cell(first + c)[l].word());
     };
-    const auto report = [&](Lane l, std::string_view rule, const auto& what) {
-        memory_.findings().add(rule, place(s, l), what);
-    };
     /// For each component: is(l, c) says whether it has no result, what(l, c) what it is of.
     const auto each_component = [&](std::string_view rule, const auto& is, const auto& what) {
         active([&](Lane l) {
             for (std::uint32_t c = 0; c < s.n; ++c)
-                if (is(l, c))
-                    return report(l, rule, [&] { return what(l, c); });
+                if (unset(s.out + c)[l].cell == 0 && is(l, c))
+                    unset(s.out + c)[l] = without_value(rule, place(s, l), l, [&] { return what(l, c); });
         });
+    };
+    const auto whole = [&](Lane l, std::string_view rule, std::string_view what) {
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            if (unset(s.out + c)[l].cell == 0)
+                unset(s.out + c)[l] = without_value(rule, place(s, l), l, [&] { return std::string(what); });
     };
     const auto of_one = [&](std::string_view name, std::string_view rule, const auto& is) {
         each_component(
@@ -375,7 +403,7 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
                       [](float a, float b) { return a < 0.0F || (a == 0.0F && b <= 0.0F); });
     case code::extended + GLSLstd450Log:
     case code::extended + GLSLstd450Log2:
-        return of_one("log", "log of 0 or less (GLSL 4.60, 8.2)", [](float a) { return a <= 0.0F; });
+        return of_one(s.op == code::extended + GLSLstd450Log ? "log" : "log2", "log of 0 or less (GLSL 4.60, 8.2)", [](float a) { return a <= 0.0F; });
     case code::extended + GLSLstd450Sqrt:
         return of_one("sqrt", "sqrt of a negative number (GLSL 4.60, 8.2)", [](float a) { return a < 0.0F; });
     case code::extended + GLSLstd450InverseSqrt:
@@ -421,15 +449,28 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
                       [](float low, float high) { return low >= high; });
     case code::extended + GLSLstd450Ldexp:
         return each_component(
-            "ldexp by more than 128 (GLSL 4.60, 8.3)", [&](Lane l, std::uint32_t c) { return i(s.b, c, l) > 128; },
+            "ldexp beyond what a float can be (GLSL 4.60, 8.3)",
+            [&](Lane l, std::uint32_t c) {
+                const float a = x(s.a, c, l);
+                return i(s.b, c, l) > 128 || (std::isfinite(a) && std::isinf(std::ldexp(a, i(s.b, c, l))));
+            },
             [&](Lane l, std::uint32_t c) { return fmt::format("ldexp({}, {})", x(s.a, c, l), i(s.b, c, l)); });
+    case code::extended + GLSLstd450FrexpStruct:
+        active([&](Lane l) {
+            for (std::uint32_t c = 0; c < s.d; ++c)
+                if (const float a = x(s.a, c, l); !std::isfinite(a) && unset(s.out + c)[l].cell == 0)
+                    unset(s.out + c)[l] = unset(s.out + s.d + c)[l] =
+                        without_value("frexp of infinity or NaN (GLSL 4.60, 8.3)", place(s, l), l,
+                                      [&] { return fmt::format("frexp({})", a); });
+        });
+        return;
     case code::extended + GLSLstd450MatrixInverse:
         active([&](Lane l) {
             std::vector<double> m;
             for (std::uint32_t c = 0; c < s.n; ++c)
                 m.push_back(x(s.a, c, l));
             if (determinant(m) == 0.0)
-                report(l, "inverse of a singular matrix (GLSL 4.60, 8.6)", [] { return "determinant 0"; });
+                whole(l, "inverse of a singular matrix (GLSL 4.60, 8.6)", "determinant 0");
         });
         return;
     case code::extended + GLSLstd450Normalize:
@@ -438,7 +479,7 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
             for (std::uint32_t c = 0; c < s.d; ++c)
                 is_zero = is_zero && x(s.a, c, l) == 0.0F;
             if (is_zero)
-                report(l, "normalize of a vector of length 0 (GLSL 4.60, 8.5)", [] { return "normalize(0)"; });
+                whole(l, "normalize of a vector of length 0 (GLSL 4.60, 8.5)", "normalize(0)");
         });
         return;
     default:

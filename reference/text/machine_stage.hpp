@@ -47,11 +47,10 @@ template <class R, int W> void Machine<R, W>::need_outputs(const Step& s, Lane l
             if (from.cell == 0 || !is_needed)
                 continue;
             const Place at = place(s, l);
-            if (from.cell - 1 == c)
+            if (from.cell - 1 == c && from.result == 0)
                 memory_.findings().add(unwritten_rule, at, [&] { return output.name; });
             else
-                memory_.findings().add(unset_rule, {from.line != 0 ? from.line : at.line, at.invocation},
-                                       [&] { return p_.variable_at(from.cell - 1); });
+                depend(from, at, l);
             break;
         }
 }

@@ -199,11 +199,17 @@ struct Program {
     bool are_quads = false, are_square_quads = false; ///< of a compute stage: each four invocations, two by two
     LineName line_name;
 
+    /// Whether what is stored in a variable counts as used: its name has `counted_name`.
+    [[nodiscard]] bool is_counted(std::uint32_t cell) const { return cell < counted.size() && counted[cell] != 0; }
+    std::vector<std::uint8_t> counted; ///< by cell; empty: no variable has such a name
     /// "variable sum".
     [[nodiscard]] std::string variable_at(std::uint32_t cell) const;
     [[nodiscard]] std::string_view shared_at(std::uint32_t cell) const; ///< the shared variable's name
     [[nodiscard]] std::uint32_t invocations() const { return group[0] * group[1] * group[2]; }
 };
+
+/// Part of the names of variables that nothing reads, whose values are looked at all the same.
+inline constexpr std::string_view counted_name = "lockstep_given";
 
 /// A compute, vertex, geometry or fragment stage. Throws Error naming by FILE:LINE what is not interpreted.
 Program decoded(const Module& module);

@@ -60,11 +60,12 @@ struct DrawnFrame {
 
 /// What the texts of the user's own shaders say.
 void add_text_notes(RunDescription& about, const ShadedSystem& of, const OwnTexts& own, const RunOptions& run,
-                    SystemSide& side, const KnownOperations& known, const CheckReport& report) {
+                    SystemSide& side, const KnownOperations& known, CheckReport& report) {
     if (!about.shaders || run.shaders.empty())
         return;
     for (std::string& note : text_notes(of, {own, *about.shaders, run.shaders, run.reference}, side, known, report))
         about.notes.push_back(std::move(note));
+    note_races(report, about.notes);
 }
 
 /// From the state that the GPU's frames left.

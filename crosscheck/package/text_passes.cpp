@@ -38,6 +38,22 @@ std::shared_ptr<const PassText> text_of(const ShadedSystem& of, std::size_t p, c
 /// A compute pass, or a vertex pass whose outputs are captured.
 bool has_text(const GlPass& pass) { return !pass.draw; }
 
+/// The pass that dispatches what pass p takes an output of: p itself, or the one that it continues.
+std::size_t lead_of(const ShadedSystem& of, std::size_t p) {
+    while (p > 0 && of.passes[p].continues)
+        --p;
+    return p;
+}
+
+/// Whether what the passes before p of its dispatch wrote is nothing that the text reads: then its dispatch makes of
+/// the state that p finds what it made of the one before.
+bool is_made_again(const ShadedSystem& of, std::size_t p, const PassText& text) {
+    for (std::size_t k = lead_of(of, p); k < p; ++k)
+        if (text.reads(of.system.passes[k]->resource()))
+            return false;
+    return true;
+}
+
 } // namespace
 
 std::vector<PassStages> stages_of(const std::vector<GlPass>& passes, ArithmeticSwitch arithmetic) {
@@ -102,11 +118,14 @@ OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const st
     OwnTexts texts(of.passes.size());
     const ShaderFolders folders = shader_folders(shaders, of.system.schema.system);
     for (std::size_t p = 0; p < of.passes.size(); ++p) {
-        const GlPass& pass = of.passes[p];
-        if (!has_text(pass) || pass.continues || !is_own(use, pass))
+        const std::size_t lead = lead_of(of, p);
+        const GlPass& pass = of.passes[lead];
+        if (!has_text(pass) || !is_own(use, pass) || (lead != p && texts[lead] == nullptr))
             continue;
         try {
-            texts[p] = text_of(of, p, folders);
+            if (lead != p && !is_made_again(of, p, *texts[lead]))
+                continue;
+            texts[p] = lead != p ? texts[lead] : text_of(of, p, folders);
             std::unique_ptr<ItemPass>& reference = of.system.passes[p];
             const std::uint8_t resource = reference->resource();
             reference = open_pass(std::move(reference), own_text(texts[p], resource));
@@ -151,7 +170,8 @@ std::vector<std::string> lines_without_counterpart(const ShadedSystem& of, const
     const std::size_t p = report.verdicts->first->pass;
     if (own.size() <= p || own[p] == nullptr)
         return {};
-    const std::shared_ptr<const PassText> expected = text_of(of, p, shader_folders(reference, of.system.schema.system));
+    const std::shared_ptr<const PassText> expected =
+        text_of(of, lead_of(of, p), shader_folders(reference, of.system.schema.system));
     const SystemRun again(of.system, side, known, report.verdicts->first->place.frame, p);
     const JudgedPass judged = again.judged();
     const SomeItems items = some_items(judged);

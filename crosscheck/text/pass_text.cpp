@@ -323,6 +323,11 @@ void PassText::run(const PassInput& in, const Profile& profile, SystemState& aft
             set_items(after[bound(k).resource], bound(k).record, words[k]);
 }
 
+bool PassText::reads(std::uint8_t resource) const {
+    const auto is_read = [&](const Bound& one) { return one.kind == Bound::Kind::before && one.resource == resource; };
+    return std::ranges::any_of(blocks_, is_read) || std::ranges::any_of(images_, is_read);
+}
+
 void PassText::run_into(const Input& input, const Profile& profile, text::Findings& findings, const How& how,
                         text::Writers* writers, std::vector<std::vector<std::uint32_t>>& to) const {
     text::Bindings bindings = input.bindings;

@@ -75,6 +75,8 @@ class PassText {
     [[nodiscard]] std::span<const Component> record(std::size_t words) const;
     /// Which of the components of an item of a vertex pass an output's cell is.
     [[nodiscard]] std::optional<std::size_t> captured_component(std::uint64_t cell) const;
+    /// Whether it reads what the resource was before.
+    [[nodiscard]] bool reads(std::uint8_t resource) const;
     /// Where an invocation is, by its number.
     [[nodiscard]] text::Invocation invocation(const Input& input, std::uint32_t number) const {
         return is_vertex() ? text::Invocation{.number = number} : text::invocation_of(program_, input.groups, number);

@@ -113,6 +113,18 @@ bool Decoder::operation(const Instruction& at) {
         step.d = type(matrix.element).count;
         return true;
     }
+    case spv::OpOuterProduct: { // its columns: the first vector times each component of the second
+        const std::uint32_t to = cell(w[1]), column = cell(w[2]), row = cell(w[3]), rows = cells_of(2);
+        for (std::uint32_t k = 0; k < cells_of(3); ++k) {
+            Step& step = add(spv::OpVectorTimesScalar);
+            step.out = to + k * rows;
+            step.n = static_cast<std::uint16_t>(rows);
+            step.a = column;
+            step.b = row + k;
+            p_.precise.back() = module_.ids[w[1]].is_precise ? 1 : 0;
+        }
+        return true;
+    }
     case spv::OpBitcast: {
         const bool from_real = is_real(module_.ids[w[2]].type), to_real = is_real(w[0]);
         if (from_real == to_real) {

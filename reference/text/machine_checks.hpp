@@ -141,8 +141,7 @@ template <class R, int W> void Machine<R, W>::depend(const Unset& from, Place at
 }
 
 /// What an operation makes that has no result, in one lane.
-template <class R, int W>
-template <class What>
+template <class R, int W> template <class What>
 auto Machine<R, W>::without_value(std::string_view rule, Place at, Lane l, const What& what) -> Unset {
     std::uint32_t k = 0;
     while (k < results_without_value_.size() &&
@@ -316,8 +315,8 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
     });
 }
 
-/// Marks what a step that is about to run makes of operands for which GLSL defines no result. Of operands without a value
-/// it is a mere consequence.
+/// Marks what a step that is about to run makes of operands for which GLSL defines no result. Of operands without a
+/// value it is a mere consequence.
 template <class R, int W> void Machine<R, W>::check(const Step& s) {
     const auto x = [&](std::uint32_t first, std::uint32_t c, Lane l) {
         return static_cast<float>(cell(first + c)[l].real());
@@ -403,7 +402,8 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
                       [](float a, float b) { return a < 0.0F || (a == 0.0F && b <= 0.0F); });
     case code::extended + GLSLstd450Log:
     case code::extended + GLSLstd450Log2:
-        return of_one(s.op == code::extended + GLSLstd450Log ? "log" : "log2", "log of 0 or less (GLSL 4.60, 8.2)", [](float a) { return a <= 0.0F; });
+        return of_one(s.op == code::extended + GLSLstd450Log ? "log" : "log2", "log of 0 or less (GLSL 4.60, 8.2)",
+                      [](float a) { return a <= 0.0F; });
     case code::extended + GLSLstd450Sqrt:
         return of_one("sqrt", "sqrt of a negative number (GLSL 4.60, 8.2)", [](float a) { return a < 0.0F; });
     case code::extended + GLSLstd450InverseSqrt:

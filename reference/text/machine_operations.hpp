@@ -414,7 +414,13 @@ template <class R, int W> void Machine<R, W>::operation(const Step& s) {
     case spv::OpIsInf:
         for (std::uint32_t c = 0; c < s.n; ++c)
             active([&](Lane l) {
-                const float x = number(cell(s.a + c)[l].real());
+                const auto& a = cell(s.a + c)[l].real();
+                if constexpr (has_sets<R>)
+                    if (const Interval set = a.set(); !set.any && std::isfinite(set.low) && std::isfinite(set.high)) {
+                        cell(s.out + c)[l].set(0U); // none of them is
+                        return;
+                    }
+                const float x = number(a);
                 cell(s.out + c)[l].set((s.op == spv::OpIsNan ? std::isnan(x) : std::isinf(x)) ? 1U : 0U);
             });
         break;

@@ -149,6 +149,44 @@ TEST_CASE("a shader without precise is legal where its own text leaves open what
     CHECK_THAT(check("physics.json", {"--shaders", precise}).out, Contains("verdict   DIVERGENT"));
 }
 
+TEST_CASE("a shader without precise is legal in every output of its dispatch") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const std::string shipped_sum = "return add(whole(high), mul(float(low >> 8), 1.0 / 16777216.0));";
+    const auto resolved = [&](const std::string& by) {
+        folder.write("light_volume_resolve.comp",
+                     replaced(shipped("lights/light_volume_resolve.comp"), shipped_sum, by));
+        return run_lockstep({"check", "data/scenes/lights/edge_of_world.json", "--frames", "1", "--no-render", "--set",
+                             "accumulate=fixed64", "--shaders", folder.path().string(), "--gl", software_gl()});
+    };
+    const std::string regrouped =
+        "return (float(low >> 8) / 16777216.0 + float(high & 4095)) + float(high >> 12) * 4096.0;";
+    const Outcome legal = resolved(regrouped);
+    INFO(legal.out << legal.err);
+    CHECK(legal.status == 0);
+    CHECK_THAT(legal.out, Contains("verdict   LEGAL") && Contains("direction texture"));
+    const Outcome slip = resolved(replaced(regrouped, "16777216.0", "16777217.5 * 1.001"));
+    CHECK_THAT(slip.out, Contains("verdict   DIVERGENT") && Contains("without a counterpart in the reference"));
+}
+
+TEST_CASE("a green run says that a shader's text has a race") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const std::string alone =
+        replaced(shipped("lights/light_volume_resolve.comp"), "void main", "shared float kept;\nvoid main");
+    folder.write("light_volume_resolve.comp", replaced(alone, "    imageStore(u_LightColorAfter",
+                                                       "    kept = colour.x;\n    imageStore(u_LightColorAfter"));
+    const Outcome races =
+        run_lockstep({"check", "data/scenes/lights/edge_of_world.json", "--frames", "1", "--no-render", "--set",
+                      "accumulate=fixed64", "--shaders", folder.path().string(), "--gl", software_gl()});
+    INFO(races.out << races.err);
+    CHECK(races.status == 0);
+    CHECK_THAT(races.out, Contains("verdict   AGREE, but light_volume_resolve.comp:51 races with another invocation") &&
+                              Contains("race on shared memory"));
+}
+
 TEST_CASE("an item that a shader without precise may come to write, and did not, is open") {
     if (!have_software_gl())
         return;

@@ -135,7 +135,7 @@ TEST_CASE("text: vectors, matrices, arrays and structures keep their parts apart
         x[9] = m[1].z;
         v = v.wzyx + v;
         x[10] = v.x;
-        mat2x3 wide = outerProduct(vec3(1, 2, 3), vec2(4, 5));
+        mat2x3 wide = outerProduct(w + vec3(0, 0, 2), vec2(x[9], 5));
         x[11] = wide[1].z;)",
                                           "struct Thing { vec2 place; int count; };");
     CHECK(x[0] == 2000.0F + 100.0F + 60.0F + 8.0F);

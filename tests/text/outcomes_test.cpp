@@ -334,3 +334,8 @@ TEST_CASE("text outcomes: what invocations share is refused by its line") {
     CHECK_THROWS_WITH(outcomes("atomicAdd(n, 1);", {0}, {}, "shared int n;"),
                       Contains("kernel.comp:5") && Contains("is not run apart from others"));
 }
+
+TEST_CASE("text outcomes: isnan and isinf are known of numbers that are open") {
+    CHECK(set_of("isinf(x[1] / x[2]) || isnan(x[1] / x[2]) ? 5.0 : 1.0", {0, 1.0F, 3.0F}).high == 1.0);
+    CHECK(set_of("isinf(x[1] / x[2] * 1e38) ? 5.0 : 1.0", {0, 12.0F, 3.0F}).low == 5.0);
+}

@@ -69,7 +69,7 @@ std::string without_version(std::string text) {
 /// A compute stage that calls the function with the words of a row, and stores its result.
 std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, const function_twin::Called& called,
                                               const std::vector<Column>& columns) {
-    const std::string text = read_shader_file(function.file);
+    const std::string text = function_twin::text_of_file(function);
     std::vector<std::string> arguments;
     std::size_t first = 0;
     for (const Column& column : columns) {

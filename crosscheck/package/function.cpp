@@ -65,7 +65,7 @@ std::string folder_of(const GlslFunction& function) {
 /// A vertex stage of that name: the function's file, whose main goes by another name (defines_of), and `end` behind it.
 /// What a compiler finds in `end` is the file's fault: a brace or a comment that it leaves open.
 ShaderTexts stage_of(const GlslFunction& function, std::string_view name, const std::string& end) {
-    const std::string text = read_shader_file(function.file);
+    const std::string text = text_of_file(function);
     const std::string file = std::filesystem::path(function.file).filename().string();
     const std::string version = has_version(text) ? "" : fmt::format("#version {} core\n", 400);
     const auto last = 1 + std::count(text.begin(), text.end(), '\n') - (text.ends_with('\n') ? 1 : 0);

@@ -96,7 +96,52 @@ std::string all_shown(const std::string& name, const std::vector<Signature>& all
     return fmt::format("{}", fmt::join(shown, ", "));
 }
 
+/// Leaves lines as they are.
+void blank(std::string& text, std::size_t first, std::size_t last) {
+    std::replace_if(
+        text.begin() + static_cast<std::ptrdiff_t>(first), text.begin() + static_cast<std::ptrdiff_t>(last),
+        [](char c) { return c != '\n'; }, ' ');
+}
+
 } // namespace
+
+std::string text_of_file(const GlslFunction& function) {
+    const std::string text = read_shader_file(function.file);
+    struct Place {
+        std::string_view word;
+        std::size_t begin = 0;
+        [[nodiscard]] std::size_t end() const { return begin + word.size(); }
+    };
+    std::vector<Place> all;
+    for (ShaderWords words(text); words.next();)
+        all.push_back({words.token(), static_cast<std::size_t>(words.token().data() - text.data())});
+    const auto is = [&](std::size_t i, std::string_view word) { return i < all.size() && all[i].word == word; };
+    /// Behind the bracket that closes the one at i; past the end: none does.
+    const auto behind = [&](std::size_t i, std::string_view open, std::string_view close) {
+        for (int depth = 0; i < all.size(); ++i)
+            if (depth += is(i, open) ? 1 : is(i, close) ? -1 : 0; depth == 0)
+                return i + 1;
+        return all.size() + 1;
+    };
+    std::string left = text;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        std::size_t end = 0;
+        if (is(i, "void") && is(i + 1, "main") && is(i + 2, "(")) {
+            const std::size_t body = behind(i + 2, "(", ")");
+            end = is(body, "{") ? behind(body, "{", "}") : 0;
+        } else if (is(i, "layout") && is(i + 1, "(")) {
+            const std::size_t in = behind(i + 1, "(", ")");
+            end = is(in, "in") && is(in + 1, ";") ? in + 2 : 0;
+        } else if (is(i, "shared")) {
+            for (end = i; end < all.size() && !is(end, ";"); ++end)
+                ;
+            ++end;
+        }
+        if (end != 0 && end <= all.size())
+            blank(left, all[i].begin, all[end - 1].end());
+    }
+    return left;
+}
 
 std::string type_of(const Column& column) {
     if (column.is_bool)

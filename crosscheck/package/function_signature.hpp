@@ -48,6 +48,10 @@ std::vector<DeclaredUniform> uniforms_of(const GlslFunction& function);
 /// What the file's main is called in a stage that calls the function.
 inline constexpr std::string_view main_of_the_file = "ls_main_of_the_file";
 
+/// The function's file, of a whole stage without its main, its shared variables and what lays out its inputs, as
+/// `layout(local_size_x = 64) in;`: the function is called in another. Lines stay.
+std::string text_of_file(const GlslFunction& function);
+
 /// The function's file with what it includes, compiled with the function's definitions.
 ShaderSource whole_text(const GlslFunction& function);
 

@@ -376,10 +376,35 @@ TEST_CASE("function: its definition is the one that the preprocessor takes, what
     };
     CHECK(run("kept", {}).status == 0);
     CHECK(run("kept", {"--define", "FAST=1"}).status == 1);
-    CHECK(run("keep", {}).err == "lockstep: shader " + shader + ": defines no function keep; it has kept, main\n");
+    CHECK(run("keep", {}).err == "lockstep: shader " + shader + ": defines no function keep; it has kept\n");
     const std::string wider = setting.file("wider.csv", "x,y,result\n1,2,2\n");
     CHECK_THAT(run_lockstep({"function", shader, "kept", "--table", wider, "--gl", software_gl()}).err,
                Contains("float kept(float)"));
+}
+
+TEST_CASE("function: of a whole stage the main, shared variables and the layout of its inputs are left out") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    const std::string table = setting.file("squares.csv", "x,result\n2,4\n3,9\n"),
+                      wrong = setting.file("wrong.csv", "x,result\n2,4\n3,9.5\n");
+    const auto run = [&](const std::string& shader, const std::string& rows) {
+        return run_lockstep({"function", shader, "square", "--table", rows, "--gl", software_gl()});
+    };
+    const std::string compute = setting.file(
+        "tile.comp", "#version 450\nlayout(local_size_x = 64) in; // a group\nshared float tile[64];\n"
+                     "float square(float x) { return x * x; }\n"
+                     "void main() {\n    tile[gl_LocalInvocationIndex] = square(2.0);\n    barrier();\n}\n");
+    const std::string fragment =
+        setting.file("shade.frag", "#version 450\nlayout(early_fragment_tests) in;\nout vec4 o_Colour;\n"
+                                   "void main(void) { if (gl_FragCoord.x > 2.0) { discard; } o_Colour = vec4(1); }\n"
+                                   "float square(float x) { return x * x; }\n");
+    for (const std::string& shader : {compute, fragment}) {
+        const Outcome right = run(shader, table);
+        INFO(right.out << right.err);
+        CHECK(right.status == 0);
+        CHECK(run(shader, wrong).status == 1);
+    }
 }
 
 TEST_CASE("function: an array of uniforms gets all its elements, or one by its number") {

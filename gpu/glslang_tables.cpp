@@ -46,6 +46,9 @@ void prepare_glslang(glslang::EShClient client, const GlslVersion& version) {
     static std::set<std::tuple<glslang::EShClient, int, std::string>> prepared;
     if (!is_ready)
         throw Error("glslang does not start");
+    constexpr int first_with_tables = 150; // of a desktop version before, it prints them instead
+    if (version.profile != "es" && version.number < first_with_tables)
+        return;
     const std::scoped_lock lock(mutex);
     if (!prepared.emplace(client, version.number, version.profile).second)
         return;

@@ -465,11 +465,12 @@ ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Sta
     return Assembly(folders, defines, none).assemble(path, text, stage);
 }
 
-ShaderSource load_any_dialect(const ShaderFolders& folders, std::string_view name, Stage stage,
-                              const ShaderDefines& defines) {
-    const ShaderTexts none;
-    const auto [path, text] = find(folders, none, fmt::format("{}{}", name, extension(stage)), "");
-    return Assembly(folders, defines, none, true).assemble(path, text, stage);
+ShaderSource load_any_dialect(const fs::path& file, Stage stage, const ShaderDefines& defines) {
+    const std::optional<std::string> text = text_of(file);
+    if (!text)
+        throw Error(fmt::format("{}: no such file", shown(file)));
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    return Assembly(shader_folders(folder), defines, {}, true).assemble(file, *text, stage);
 }
 
 ShaderSource continued(ShaderSource stage, const ShaderSource& end) {

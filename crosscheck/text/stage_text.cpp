@@ -107,18 +107,13 @@ std::optional<Stage> stage_of(const std::filesystem::path& file) {
 }
 
 StageText read_stage(const std::filesystem::path& file, const ShaderDefines& defines, ConstantExpressions constants) {
-    std::string name = file.filename().string();
-    const std::optional<Stage> stage = stage_of(name);
+    const std::optional<Stage> stage = stage_of(file);
     if (!stage)
         throw Error(
             fmt::format("{}: expected a stage NAME.comp, NAME.vert, NAME.geom or NAME.frag, or one of these with "
                         ".spv behind it",
                         plain_line(file.string())));
-    name.resize(name.rfind(extension(*stage)));
-    if (!std::filesystem::exists(file))
-        throw Error(fmt::format("{}: no such file", plain_line(file.string())));
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    auto source = std::make_shared<const ShaderSource>(load_any_dialect(shader_folders(folder), name, *stage, defines));
+    auto source = std::make_shared<const ShaderSource>(load_any_dialect(file, *stage, defines));
     text::Module module = text::read_module(spirv_of(*source, constants),
                                             [source](std::uint32_t line) { return line_name(*source, line); });
     text::Program program = text::decoded(module);

@@ -184,6 +184,8 @@ void Decoder::outside_variables() {
         case spv::StorageClassWorkgroup:
             address_[v.id] = {.space = Address::Space::shared, .offset = p_.shared, .type = v.type};
             p_.shared_names.push_back({about.name, p_.shared, type(v.type).cells});
+            if (v.initializer != 0)
+                p_.set_shared.push_back(p_.shared_names.back());
             p_.shared += type(v.type).cells;
             break;
         case spv::StorageClassInput:

@@ -61,6 +61,9 @@ class Memory {
     void start_group(std::uint32_t number) {
         std::fill(shared_.begin(), shared_.end(), 0U);
         std::fill(unset_.begin(), unset_.end(), std::uint8_t{1});
+        for (const NamedCells& one : program_.set_shared)
+            if (!unset_.empty())
+                std::fill_n(unset_.begin() + one.first, one.count, std::uint8_t{0});
         if (races_ != nullptr)
             races_->start_group(number);
     }

@@ -192,6 +192,7 @@ struct Program {
     std::vector<Block> blocks;
     std::vector<PlainUniform> uniforms;
     std::vector<ImageUniform> images;
+    std::vector<NamedCells> set_shared; ///< shared variables that begin as 0 (GL_EXT_null_initializer)
     std::uint32_t barriers = 0;
     /// The first line that asks for what is the driver's choice, and for what; 0: none does.
     std::uint32_t choice_line = 0;

@@ -241,6 +241,21 @@ TEST_CASE("examine: what would take more than is made up or run is refused, prod
         Contains("an array of 100000 blocks or images"));
 }
 
+TEST_CASE("examine: a module that lies beside the named file is left alone") {
+    const TemporaryFolder folder;
+    const std::string right = folder.write("right.comp", sum("barrier();")).string();
+    folder.write("right.comp.spv", "another file");
+    CHECK(run_lockstep({"examine", right}).status == 0);
+    CHECK_THAT(refusal(run_lockstep({"examine", right + ".spv"})), Contains("right.comp.spv"));
+}
+
+TEST_CASE("examine: a text of an old version is one line, not the compiler's tables") {
+    const TemporaryFolder folder;
+    const Outcome old = run_lockstep(
+        {"examine", folder.write("old.frag", "#version 130\nout vec4 o;\nvoid main() { o = vec4(1.0); }\n").string()});
+    CHECK(old.out == "old.frag: no findings in 64 fragments\n");
+}
+
 TEST_CASE("examine: vertex, geometry and fragment stages run with inputs that are given or made up") {
     const TemporaryFolder folder;
     const auto examined = [&](const std::string& name, const std::string& text, std::vector<std::string> options = {}) {

@@ -257,3 +257,12 @@ TEST_CASE("examine: an atomic operation outside of an image gives 0 and leaves i
                 "x[i] = sqrt(outside == 0u ? 1.0 : -1.0) + float(imageAtomicAdd(a, ivec2(i, 0), 0u)); }\n")
               .empty());
 }
+
+TEST_CASE("examine: a shared variable that begins as 0 is set") {
+    const std::string group = "#extension GL_EXT_null_initializer : enable\n" + of_eight;
+    const std::string body = "buffer Out { float x[]; };\n"
+                             "void main() { x[gl_GlobalInvocationID.x] = s[gl_LocalInvocationIndex]; }\n";
+    const Examination of_groups{.groups = {1, 1, 1}, .sizes = {{"Out", {8}}}};
+    CHECK(found(group + "shared float s[8] = {};\n" + body, of_groups).empty());
+    CHECK(found(group + "shared float s[8];\n" + body, of_groups).size() == 1);
+}

@@ -12,6 +12,6 @@ cmake --build --preset ci
 scripts/fetch_meshes.sh
 status=0
 if apt-cache show libosmesa6 >/dev/null 2>&1; then export LOCKSTEP_REQUIRE_OSMESA=1; fi
-LOCKSTEP_REQUIRE_GL=1 LOCKSTEP_REQUIRE_MESHES=1 ctest --test-dir build/ci --no-tests=error --output-on-failure --output-junit junit.xml -j 2 "$@" || status=$?
+LOCKSTEP_REQUIRE_GL=1 LOCKSTEP_REQUIRE_MESHES=1 ctest --test-dir build/ci --no-tests=error --output-on-failure --output-junit junit.xml -j "$(($(nproc) + 1))" "$@" || status=$?
 scripts/junit_properties.sh build/ci/junit.xml build/ci/crosscheck/lockstep
 exit "$status"

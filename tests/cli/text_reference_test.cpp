@@ -206,6 +206,23 @@ TEST_CASE("an item that a shader without precise may come to write, and did not,
     CHECK_THAT(sprayed("slip", "hashed(s * (rd1 + rp1))").out, Contains("verdict   DIVERGENT"));
 }
 
+TEST_CASE("collision: points in neighbouring texels that have the same half codes are none that is drawn twice") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    std::ifstream stream("tests/collision/right_shaders/factored_tick.vert");
+    folder.write("collision_pass.vert", std::string{std::istreambuf_iterator<char>(stream), {}});
+    folder.write("collision_pass.geom", "");
+    folder.write("collision_pass.frag", "#version 330 core\nflat in vec3 out_Position;\nout vec4 o_Texel;\n"
+                                        "void main() { o_Texel = vec4(out_Position, 1.0); }\n"); // the driver cuts
+    const Outcome legal =
+        run_lockstep({"check", "data/scenes/stress/wide_and_fast.json", "--frames", "9", "--no-render", "--set",
+                      "cdt_format=rgba16f", "--shaders", folder.path().string(), "--gl", software_gl()});
+    INFO(legal.out << legal.err);
+    CHECK(legal.status == 0);
+    CHECK_THAT(legal.out, Contains("verdict   LEGAL"));
+}
+
 TEST_CASE("collision: floats without precise are legal in any order, unless they are held to what was measured") {
     if (!have_software_gl())
         return;

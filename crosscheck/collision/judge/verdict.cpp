@@ -152,7 +152,7 @@ bool is_conserved(std::size_t particle, const Wanderer& wanderer, const std::map
             ++drawn;
             may_be_another = may_be_another ||
                              std::any_of(of_texel.owners.begin(), of_texel.owners.end(), [&](const TexelOwner& other) {
-                                 return !is_point(other) && other.stores(own->code);
+                                 return !is_point(other) && other.stores(gpu.texels[texel]);
                              });
         } else if (owner->kind != TexelOwner::Kind::nothing && owner->depth.low <= own->depth.high) {
             may_be_hidden = true;

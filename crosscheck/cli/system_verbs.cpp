@@ -65,7 +65,6 @@ void add_text_notes(RunDescription& about, const ShadedSystem& of, const OwnText
         return;
     for (std::string& note : text_notes(of, {own, *about.shaders, run.shaders, run.reference}, side, known, report))
         about.notes.push_back(std::move(note));
-    note_races(report, about.notes);
 }
 
 /// From the state that the GPU's frames left.

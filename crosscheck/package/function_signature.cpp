@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -22,13 +23,14 @@ namespace {
 
 struct Word {
     std::string text;
-    std::size_t line = 1;
+    std::size_t line = 1, begin = 0; ///< of the text
 };
 
 std::vector<Word> words_of(const std::string& text) {
     std::vector<Word> all;
     for (ShaderWords words(text); words.next();)
-        all.push_back({std::string(words.token()), words.line()});
+        all.push_back(
+            {std::string(words.token()), words.line(), static_cast<std::size_t>(words.token().data() - text.data())});
     return all;
 }
 
@@ -96,51 +98,56 @@ std::string all_shown(const std::string& name, const std::vector<Signature>& all
     return fmt::format("{}", fmt::join(shown, ", "));
 }
 
-/// Leaves lines as they are.
-void blank(std::string& text, std::size_t first, std::size_t last) {
-    std::replace_if(
-        text.begin() + static_cast<std::ptrdiff_t>(first), text.begin() + static_cast<std::ptrdiff_t>(last),
-        [](char c) { return c != '\n'; }, ' ');
+bool is(const std::vector<Word>& words, std::size_t i, std::string_view what) {
+    return i < words.size() && words[i].text == what;
+}
+
+/// The first word behind the bracket that closes the one at `open`; nothing where none does.
+std::optional<std::size_t> behind_bracket(const std::vector<Word>& words, std::size_t open) {
+    const std::string_view closing = is(words, open, "(") ? ")" : "}";
+    int depth = 0;
+    for (std::size_t i = open; i < words.size(); ++i) {
+        if (words[i].text == words[open].text)
+            ++depth;
+        else if (words[i].text == closing && --depth == 0)
+            return i + 1;
+    }
+    return {};
+}
+
+/// The first word behind what begins at i and only a stage of its own kind has: its main, a shared variable, what lays
+/// out its inputs. Nothing where nothing of the kind begins.
+std::optional<std::size_t> behind_stage_part(const std::vector<Word>& words, std::size_t i) {
+    if (is(words, i, "void") && is(words, i + 1, "main") && is(words, i + 2, "(")) {
+        const std::optional<std::size_t> body = behind_bracket(words, i + 2);
+        return body && is(words, *body, "{") ? behind_bracket(words, *body) : std::nullopt;
+    }
+    if (is(words, i, "layout") && is(words, i + 1, "(")) {
+        const std::optional<std::size_t> in = behind_bracket(words, i + 1);
+        return in && is(words, *in, "in") && is(words, *in + 1, ";") ? std::optional(*in + 2) : std::nullopt;
+    }
+    const bool is_layout = i > 0 && (is(words, i - 1, "(") || is(words, i - 1, ",")); // of a block
+    if (is(words, i, "shared") && !is_layout)
+        for (std::size_t end = i; end < words.size(); ++end)
+            if (is(words, end, ";"))
+                return end + 1;
+    return {};
 }
 
 } // namespace
 
 std::string text_of_file(const GlslFunction& function) {
-    const std::string text = read_shader_file(function.file);
-    struct Place {
-        std::string_view word;
-        std::size_t begin = 0;
-        [[nodiscard]] std::size_t end() const { return begin + word.size(); }
-    };
-    std::vector<Place> all;
-    for (ShaderWords words(text); words.next();)
-        all.push_back({words.token(), static_cast<std::size_t>(words.token().data() - text.data())});
-    const auto is = [&](std::size_t i, std::string_view word) { return i < all.size() && all[i].word == word; };
-    /// Behind the bracket that closes the one at i; past the end: none does.
-    const auto behind = [&](std::size_t i, std::string_view open, std::string_view close) {
-        for (int depth = 0; i < all.size(); ++i)
-            if (depth += is(i, open) ? 1 : is(i, close) ? -1 : 0; depth == 0)
-                return i + 1;
-        return all.size() + 1;
-    };
-    std::string left = text;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        std::size_t end = 0;
-        if (is(i, "void") && is(i + 1, "main") && is(i + 2, "(")) {
-            const std::size_t body = behind(i + 2, "(", ")");
-            end = is(body, "{") ? behind(body, "{", "}") : 0;
-        } else if (is(i, "layout") && is(i + 1, "(")) {
-            const std::size_t in = behind(i + 1, "(", ")");
-            end = is(in, "in") && is(in + 1, ";") ? in + 2 : 0;
-        } else if (is(i, "shared")) {
-            for (end = i; end < all.size() && !is(end, ";"); ++end)
-                ;
-            ++end;
+    std::string text = read_shader_file(function.file);
+    const std::vector<Word> words = words_of(text);
+    for (std::size_t i = 0; i < words.size(); ++i)
+        if (const std::optional<std::size_t> end = behind_stage_part(words, i)) {
+            const auto first = text.begin() + static_cast<std::ptrdiff_t>(words[i].begin),
+                       last = text.begin() + static_cast<std::ptrdiff_t>(words[*end - 1].begin + 1); // a bracket or ;
+            std::replace_if(
+                first, last, [](char c) { return c != '\n'; }, ' ');
+            i = *end - 1;
         }
-        if (end != 0 && end <= all.size())
-            blank(left, all[i].begin, all[end - 1].end());
-    }
-    return left;
+    return text;
 }
 
 std::string type_of(const Column& column) {

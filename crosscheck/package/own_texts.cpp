@@ -59,8 +59,7 @@ void SystemTexts::take_shaders(const std::filesystem::path& folder, const std::f
     own_->texts = open_by_own_text(of_, own_->use, folder);
 }
 
-std::vector<std::string> SystemTexts::notes(SystemSide& side, const KnownOperations& known,
-                                            const CheckReport& report) const {
+std::vector<std::string> SystemTexts::notes(SystemSide& side, const KnownOperations& known, CheckReport& report) const {
     std::vector<std::string> notes = references_.lines;
     if (own_)
         for (std::string& note : text_notes(of_, *own_, side, known, report))

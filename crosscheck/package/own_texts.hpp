@@ -32,7 +32,7 @@ class SystemTexts {
 
     /// What they say of a check.
     [[nodiscard]] std::vector<std::string> notes(SystemSide& side, const KnownOperations& known,
-                                                 const CheckReport& report) const;
+                                                 CheckReport& report) const;
 
   private:
     ShadedSystem of_;

@@ -86,9 +86,25 @@ std::vector<std::string> reference_notes(const ShadedSystem& of, const OwnTexts&
     return notes;
 }
 
+namespace {
+
+/// What passed may not the next time where a race was found in the shader's text.
+void note_race(CheckReport& report, const std::vector<std::string>& findings) {
+    if (report.verdict != Verdict::agree && report.verdict != Verdict::legal)
+        return;
+    for (const std::string& line : findings)
+        if (const std::size_t rule = line.find(fmt::format(": {}", text::race_rule)); rule != std::string::npos) {
+            report.untried.push_back(fmt::format("{} races with another invocation", line.substr(0, rule)));
+            return;
+        }
+}
+
+} // namespace
+
 std::vector<std::string> text_notes(const ShadedSystem& of, const OwnShaders& own, SystemSide& side,
-                                    const KnownOperations& known, const CheckReport& report) {
+                                    const KnownOperations& known, CheckReport& report) {
     std::vector<std::string> notes = shader_findings(of, own.texts, own.folder, side.describe().profile, report.frames);
+    note_race(report, notes);
     for (const std::string& line :
          lines_without_counterpart(of, own.texts, own.use, own.reference, side, known, report))
         notes.push_back("without a counterpart in the reference: " + line);

@@ -84,7 +84,6 @@ MatchResult match_system(SystemSide& gpu, const System& system, const SystemMatc
     if (texts)
         for (std::string& note : texts->notes(gpu, *check_options.known, report))
             run.notes.push_back(std::move(note));
-    note_races(report, run.notes);
     ask_power(report, options.power_at_least);
     const bool passed = passes(report, {options.allow_undefined, false, options.power_at_least});
     return {std::move(report), std::move(run), passed};

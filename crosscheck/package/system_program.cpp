@@ -155,7 +155,6 @@ int check_verb(const OwnProgram& program, const Options& options) {
     }
     for (std::string& note : gpu.texts().notes(*gpu, *check.known, report))
         run.notes.push_back(std::move(note));
-    note_races(report, run.notes);
     const auto explain_line = [&](const std::vector<std::string>& words) {
         std::vector<std::string> explain{"explain"};
         explain.insert(explain.end(), words.begin(), words.end());

@@ -119,13 +119,15 @@ OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const st
     const ShaderFolders folders = shader_folders(shaders, of.system.schema.system);
     for (std::size_t p = 0; p < of.passes.size(); ++p) {
         const std::size_t lead = lead_of(of, p);
-        const GlPass& pass = of.passes[lead];
-        if (!has_text(pass) || !is_own(use, pass) || (lead != p && texts[lead] == nullptr))
+        if (!has_text(of.passes[lead]) || !is_own(use, of.passes[lead]))
             continue;
         try {
-            if (lead != p && !is_made_again(of, p, *texts[lead]))
+            if (lead == p)
+                texts[p] = text_of(of, p, folders);
+            else if (texts[lead] != nullptr && is_made_again(of, p, *texts[lead]))
+                texts[p] = texts[lead];
+            else
                 continue;
-            texts[p] = lead != p ? texts[lead] : text_of(of, p, folders);
             std::unique_ptr<ItemPass>& reference = of.system.passes[p];
             const std::uint8_t resource = reference->resource();
             reference = open_pass(std::move(reference), own_text(texts[p], resource));

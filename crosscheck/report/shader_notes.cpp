@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "reference/text/findings.hpp"
-
 namespace lockstep {
 
 std::vector<std::string> warning_notes(const std::vector<ShaderWarning>& warnings) {
@@ -24,16 +22,6 @@ void note_unset_variables(CheckReport& report, const std::vector<ShaderWarning>&
     const auto first = std::ranges::find_if(warnings, is_about_unset_variable);
     if (first != warnings.end())
         report.untried.push_back(fmt::format("{} may read a variable that was never set", first->place));
-}
-
-void note_races(CheckReport& report, const std::vector<std::string>& notes) {
-    if (report.verdict != Verdict::agree && report.verdict != Verdict::legal)
-        return;
-    for (const std::string& note : notes)
-        if (const std::size_t rule = note.find(fmt::format(": {}", text::race_rule)); rule != std::string::npos) {
-            report.untried.push_back(fmt::format("{} races with another invocation", note.substr(0, rule)));
-            return;
-        }
 }
 
 } // namespace lockstep

@@ -14,7 +14,4 @@ std::vector<std::string> warning_notes(const std::vector<ShaderWarning>& warning
 /// value open, and this driver's happens to agree.
 void note_unset_variables(CheckReport& report, const std::vector<ShaderWarning>& warnings);
 
-/// Of a green run in whose shader's text a race was found, which `notes` say: what passed may not the next time.
-void note_races(CheckReport& report, const std::vector<std::string>& notes);
-
 } // namespace lockstep

@@ -456,14 +456,10 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
             },
             [&](Lane l, std::uint32_t c) { return fmt::format("ldexp({}, {})", x(s.a, c, l), i(s.b, c, l)); });
     case code::extended + GLSLstd450FrexpStruct:
-        active([&](Lane l) {
-            for (std::uint32_t c = 0; c < s.d; ++c)
-                if (const float a = x(s.a, c, l); !std::isfinite(a) && unset(s.out + c)[l].cell == 0)
-                    unset(s.out + c)[l] = unset(s.out + s.d + c)[l] =
-                        without_value("frexp of infinity or NaN (GLSL 4.60, 8.3)", place(s, l), l,
-                                      [&] { return fmt::format("frexp({})", a); });
-        });
-        return;
+        return each_component( // first the numbers, then their exponents
+            "frexp of infinity or NaN (GLSL 4.60, 8.3)",
+            [&](Lane l, std::uint32_t c) { return !std::isfinite(x(s.a, c % s.d, l)); },
+            [&](Lane l, std::uint32_t c) { return fmt::format("frexp({})", x(s.a, c % s.d, l)); });
     case code::extended + GLSLstd450MatrixInverse:
         active([&](Lane l) {
             std::vector<double> m;

@@ -417,7 +417,7 @@ template <class R, int W> void Machine<R, W>::operation(const Step& s) {
                 const auto& a = cell(s.a + c)[l].real();
                 if constexpr (has_sets<R>)
                     if (const Interval set = a.set();
-                        !set.any && std::max(-set.low, set.high) <= 3.4028234663852886e38) {
+                        !set.any && std::max(-set.low, set.high) <= std::numeric_limits<float>::max()) {
                         cell(s.out + c)[l].set(0U); // none of them is
                         return;
                     }

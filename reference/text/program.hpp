@@ -199,10 +199,10 @@ struct Program {
     std::string_view choice;
     bool are_quads = false, are_square_quads = false; ///< of a compute stage: each four invocations, two by two
     LineName line_name;
+    std::vector<std::uint8_t> counted; ///< by cell: of a variable whose name has counted_name; empty: there is none
 
-    /// Whether what is stored in a variable counts as used: its name has `counted_name`.
+    /// Whether what is stored in the cell counts as used.
     [[nodiscard]] bool is_counted(std::uint32_t cell) const { return cell < counted.size() && counted[cell] != 0; }
-    std::vector<std::uint8_t> counted; ///< by cell; empty: no variable has such a name
     /// "variable sum".
     [[nodiscard]] std::string variable_at(std::uint32_t cell) const;
     [[nodiscard]] std::string_view shared_at(std::uint32_t cell) const; ///< the shared variable's name

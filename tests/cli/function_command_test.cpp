@@ -405,6 +405,10 @@ TEST_CASE("function: of a whole stage the main, shared variables and the layout 
         CHECK(right.status == 0);
         CHECK(run(shader, wrong).status == 1);
     }
+    // A block's layout is another word. GL keeps such a block though nothing uses it.
+    const std::string block = setting.file("block.glsl", "layout(shared) uniform Values { float k; };\n"
+                                                         "float square(float x) { return x * x; }\n");
+    CHECK_THAT(refusal(run(block, table)), Contains("block.glsl:1: nothing is given for uniform block Values"));
 }
 
 TEST_CASE("function: an array of uniforms gets all its elements, or one by its number") {

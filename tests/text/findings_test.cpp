@@ -62,6 +62,13 @@ TEST_CASE(
     finds("x[8] = inverse(mat3(x[0], x[1], 1.0, x[0], x[1], 2.0, x[0], x[1], 5.0))[0][0];",
           "x[8] = inverse(mat3(x[0], x[1], 1.0, x[1], x[1], 2.0, x[0], x[6], 5.0))[0][0];",
           "inverse of a singular matrix");
+    finds("x[8] = ldexp(x[6], int(x[3]) + 88);", "x[8] = ldexp(x[6], int(x[3]) + 87);",
+          "ldexp beyond what a float can be");
+    finds("int e; x[8] = frexp(1.0 / x[2], e);", "int e; x[8] = frexp(x[6], e);", "frexp of infinity or NaN");
+    finds("int e; float y = frexp(1.0 / x[2], e); x[8] = float(e);", "int e; x[8] = frexp(x[6], e) + float(e);",
+          "frexp of infinity or NaN");
+    // What nothing depends on is none.
+    finds("x[8] = mix(1.0, log(x[0]), x[0] < 0.0);", "x[8] = mix(1.0, log(x[0]), x[0] > 0.0);", "log of 0 or less");
     finds("x[8] = min(x[2] / x[2], 1.0);", "x[8] = min(x[1] / x[1], 1.0);", "min, max or clamp of NaN");
     finds("x[8] = clamp(x[1], x[3], x[2]);", "x[8] = clamp(x[1], x[2], x[3]);",
           "clamp with a minimum above its maximum");

@@ -86,7 +86,7 @@ TEST_CASE("json reader: a number is rounded to a float once") {
 
 TEST_CASE("json reader: an error does not quote a million digits") {
     try {
-        parse_json(std::string(1'000'000, '9') + "e999", "a");
+        parse_json(std::string(1'000'000, '9').append("e999"), "a");
         FAIL("no number so large is read");
     } catch (const Error& error) {
         CHECK(std::string(error.what()).size() < 250);

@@ -14,7 +14,7 @@ namespace {
 
 struct Sealed {
     test::TemporaryFolder folder;
-    std::filesystem::path file = folder.write("run.h5", std::string(seal_size, '\0') + "some thousand bytes");
+    std::filesystem::path file = folder.write("run.h5", std::string(seal_size, '\0').append("some thousand bytes"));
     Sealed() { seal_file(file); }
     [[nodiscard]] std::string refusal() const {
         return error_of([&] { check_seal(OpenedFile(file, "trace")); });

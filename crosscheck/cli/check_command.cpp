@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/check_request.hpp"
+#include "crosscheck/cli/collision_lines.hpp"
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/part_file.hpp"
 #include "crosscheck/cli/rule_by_text.hpp"
@@ -271,6 +272,10 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
         run.notes.push_back(std::move(note));
     if (checked.part != nullptr)
         run.notes.insert(run.notes.end(), checked.part->own_notes.begin(), checked.part->own_notes.end());
+    if (checked.run.shaders)
+        std::ranges::move(lines_without_counterpart(checked.scene, options.run.shaders, checked.profile, checked.known,
+                                                    report, is_rendered(options)),
+                          std::back_inserter(run.notes));
     tell(options, report, run);
     if (collector) {
         const SecondLook look = look_again(options, checked, collector->frames().items());

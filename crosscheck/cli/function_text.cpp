@@ -163,7 +163,7 @@ std::vector<ItemOutcome> FunctionText::results(const FunctionRows& rows, std::si
          outcomes_.of({}, {1, 1, 1}, bound(arguments, result), PassStage::vertex, profile_, known, constants)) {
         ItemOutcome outcome{.values = {}, .open = one.open, .undefined = one.undefined};
         for (const text::WrittenWord& word : one.written)
-            outcome.values.push_back(word.is_real ? word.set : item_twin::set_of(word.word, result_.scalar));
+            outcome.values.push_back(word.set_in(result_.scalar));
         outcome.values.resize(static_cast<std::size_t>(result_.components), Interval::anything());
         all.push_back(std::move(outcome));
     }

@@ -13,7 +13,15 @@
 namespace lockstep {
 namespace {
 
-constexpr int examined_frames = 2;
+/// The first frames: two, and more of small states, since a birth or a death may come late.
+int examined_frames(const System& system, int frames) {
+    constexpr std::size_t least = 2, items = 100'000;
+    const SystemView start = system.start.view();
+    std::size_t most = 1;
+    for (std::uint8_t r = 0; r < system.schema.resources.size(); ++r)
+        most = std::max(most, start[r].count());
+    return std::min(frames, static_cast<int>(std::max(least, items / most)));
+}
 
 /// The first groups of a dispatch, where neighbours are, and few of the rest.
 bool is_sampled(const std::array<std::uint32_t, 3>& group) {
@@ -58,7 +66,8 @@ std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts&
     if (std::none_of(texts.begin(), texts.end(), [](const WatchedText& one) { return one.text != nullptr; }))
         return lines;
     ReferenceRun run(system, profile);
-    for (int frame = 0; frame < std::min(frames, examined_frames); ++frame)
+    const int looked_at = examined_frames(system, frames);
+    for (int frame = 0; frame < looked_at; ++frame)
         for (std::size_t p = 0; p < of.passes.size(); ++p) {
             WatchedText& watched = texts[p];
             if (watched.text != nullptr && system.passes[p]->runs(frame)) {

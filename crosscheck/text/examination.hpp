@@ -23,12 +23,14 @@ struct Examination {
     std::map<std::string, std::vector<std::string>> inputs = {};
     ShaderDefines defines = {};
     std::map<std::string, std::vector<std::string>> uniforms = {};
+    std::map<std::string, std::vector<std::uint32_t>> uniform_words = {}; ///< of those that are known by their bits
     /// Elements of the array at a block's end, by the block's name; texels along each axis of an image.
     std::map<std::string, std::vector<std::uint32_t>> sizes = {};
     Fills fills = {};
     std::uint32_t seed = 1;
     std::uint32_t integers = 0;                        ///< integers of arrays and images are below it; 0: they are 0
     std::uint32_t subgroup_size = text::lanes_at_once; ///< at most so many
+    bool is_watched = true;                            ///< looks for what the text leaves undefined, and for races
 };
 
 } // namespace lockstep

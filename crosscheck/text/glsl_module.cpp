@@ -18,6 +18,7 @@
 #include <spirv-tools/optimizer.hpp>
 
 #include "crosscheck/text/condition_lines.hpp"
+#include "crosscheck/text/old_glsl.hpp"
 #include "crosscheck/text/open_constants.hpp"
 #include "gpu/child_process.hpp"
 #include "gpu/glslang_tables.hpp"
@@ -47,22 +48,28 @@ EShLanguage language(Stage stage) {
 struct Reading {
     glslang::EShClient client = glslang::EShClientOpenGL;
     int version = 0;
-    bool is_es = false;
+    bool is_es = false, is_old = false; ///< old: written before `in` and `out`
 };
+
+/// Whether a text without a version says what went with GLSL 1.30.
+bool looks_old(const std::string& text) {
+    return says(text, "gl_FragColor") || says(text, "varying") || says(text, "attribute");
+}
 
 /// Its own dialect first. What was written for versions without SPIR-V means the same in the first that has it, unless
 /// it asks which one compiles it.
 std::vector<Reading> readings_of(const std::string& text) {
-    constexpr int desktop = 460, es = 310;
+    constexpr int desktop = 460, es = 310, first_with_in = 130;
     const GlslVersion said = version_in(text);
     const bool is_es = said.profile == "es";
     const int version = said.number == 0 ? desktop : said.number; // of a text that does not say
     const int newer = is_es ? es : desktop;
+    const bool is_old = said.number == 0 ? looks_old(text) : said.number < first_with_in;
     std::vector<Reading> all;
     for (const glslang::EShClient client : {glslang::EShClientOpenGL, glslang::EShClientVulkan}) {
         all.push_back({client, 0, is_es});
-        if (version < newer && !says(text, "__VERSION__"))
-            all.push_back({client, newer, is_es});
+        if ((version < newer || is_old) && !says(text, "__VERSION__"))
+            all.push_back({client, newer, is_es, is_old});
     }
     return all;
 }
@@ -80,9 +87,16 @@ EShMessages messages_of(const Reading& as) {
                                     (as.client == glslang::EShClientVulkan ? EShMsgVulkanRules : EShMsgDefault));
 }
 
-/// `text` outlives it.
-void set_up(glslang::TShader& shader, const char* const& text, EShLanguage in, const Reading& as) {
+std::string words_before(const std::string& text, const ShaderSource& stage, const Reading& as) {
+    return as.is_old ? words_of_old_glsl(text, stage.stage) : std::string();
+}
+
+/// `text` and `before` outlive it.
+void set_up(glslang::TShader& shader, const char* const& text, const std::string& before, EShLanguage in,
+            const Reading& as) {
     shader.setStrings(&text, 1);
+    if (!before.empty())
+        shader.setPreamble(before.c_str());
     set_glslang_target(shader, in, as.client);
     if (as.version != 0)
         shader.setOverrideVersion(as.version);
@@ -93,9 +107,10 @@ void set_up(glslang::TShader& shader, const char* const& text, EShLanguage in, c
 Compiled compiled(const ShaderSource& stage, const std::string& as_text, const Reading& as) {
     const EShLanguage in = language(stage.stage);
     const EShMessages messages = messages_of(as);
+    const std::string before = words_before(as_text, stage, as);
     glslang::TShader shader(in);
     const char* const text = as_text.c_str();
-    set_up(shader, text, in, as);
+    set_up(shader, text, before, in, as);
     if (!shader.parse(GetDefaultResources(), default_version, false, messages))
         return {{}, shader.getInfoLog()};
     glslang::TProgram program;
@@ -126,9 +141,11 @@ std::size_t error_line(const Compiled& one) {
 std::string compiled_open(const ShaderSource& stage, const Reading& as) {
     constexpr int most_tries = 16;
     const EShLanguage in = language(stage.stage);
+    if (as.is_old) // what stands before it would be part of what is compiled again
+        return {};
     glslang::TShader shader(in);
     const char* const text = stage.text.c_str();
-    set_up(shader, text, in, as);
+    set_up(shader, text, {}, in, as);
     std::string plain;
     glslang::TShader::ForbidIncluder none;
     if (!shader.preprocess(GetDefaultResources(), default_version, ENoProfile, false, false, messages_of(as), &plain,

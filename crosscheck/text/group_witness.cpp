@@ -145,9 +145,9 @@ std::vector<WitnessLine> group_witness_lines(const SharingText& wrong, const Sha
         if (!stretch)
             continue;
         const WitnessedText of_wrong{wrong.stage.program, groups_of_wrong.runs(stretch),
-                                     [](const text::WrittenPlace&p) { return std::optional(p); }, wrong.line_text},
+                                     [](const text::WrittenPlace&p) { return std::optional(p); }, wrong.source},
             of_reference{reference.stage.program, groups_of_reference.runs(stretch), all_of_reference,
-                         reference.line_text};
+                         reference.source};
         std::vector<ItemWriters> in_stretch, same;
         const std::uint32_t size = wrong.stage.program.invocations();
         for (std::uint32_t i = group * size; i < (group + 1) * size; ++i) {
@@ -164,10 +164,10 @@ std::vector<WitnessLine> group_witness_lines(const SharingText& wrong, const Sha
         return place.space == Space::shared ? std::nullopt : std::optional(place);
     };
     std::vector<WitnessLine> lines = witness_lines(
-        {wrong.stage.program, groups_of_wrong.runs({}), no_shared, wrong.line_text},
+        {wrong.stage.program, groups_of_wrong.runs({}), no_shared, wrong.source},
         {reference.stage.program, groups_of_reference.runs({}),
          [&](const text::WrittenPlace& place) { return place.space == Space::shared ? std::nullopt : common(place); },
-         reference.line_text},
+         reference.source},
         items, others, is_own, true);
     if (shares(reference.stage.program)) // what it makes of others' words lies behind what went wrong
         std::erase_if(lines, [](const WitnessLine& one) { return one.where.ends_with(reference_mark); });

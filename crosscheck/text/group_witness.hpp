@@ -17,7 +17,7 @@ bool shares(const text::Program& program);
 /// A text whose invocations share.
 struct SharingText {
     const BoundStage& stage;
-    std::function<std::string(std::uint32_t line)> line_text;
+    const ShaderSource& source;
 };
 
 /// witness_lines of texts whose invocations share. Where both share alike, in the first stretch between two barriers in

@@ -198,6 +198,11 @@ void give_members(const Examination& of, const text::Block& block, std::vector<s
 std::vector<std::vector<std::uint32_t>> given_uniforms(const Examination& of, const text::Program& program) {
     std::vector<std::vector<std::uint32_t>> all;
     for (const text::PlainUniform& uniform : program.uniforms) {
+        if (const auto known = of.uniform_words.find(uniform.name);
+            known != of.uniform_words.end() && known->second.size() == uniform.cells) {
+            all.push_back(known->second);
+            continue;
+        }
         const auto given = of.uniforms.find(uniform.name);
         all.push_back(given == of.uniforms.end()
                           ? std::vector<std::uint32_t>{}

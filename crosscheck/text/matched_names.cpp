@@ -41,11 +41,11 @@ class Interfaces {
     [[noreturn]] void refuse(std::string_view found, std::string_view expected) const {
         throw Error(fmt::format("{}: {}; expected {}, as {} has", text_.file, found, expected, reference_.file));
     }
-    void check_stage() const {
+    void check_stage(bool by_host) const {
         const text::Program &a = text_.program, &b = reference_.program;
         if (a.stage != b.stage)
             refuse(fmt::format("a {} stage", stage_name(a.stage)), fmt::format("a {} stage", stage_name(b.stage)));
-        if (a.group != b.group)
+        if (a.group != b.group && !by_host)
             refuse(fmt::format("local_size {}", fmt::join(a.group, ", ")),
                    fmt::format("local_size {}", fmt::join(b.group, ", ")));
     }
@@ -102,7 +102,7 @@ class Interfaces {
 };
 
 std::vector<std::optional<std::size_t>> matched_blocks(const Interfaces& both, const std::vector<text::Block>& own,
-                                                       const std::vector<text::Block>& expected) {
+                                                       const std::vector<text::Block>& expected, bool by_host) {
     std::vector<std::optional<std::size_t>> matched(expected.size());
     std::vector<bool> is_taken(own.size());
     const auto match = [&](const auto& are_alike) {
@@ -118,17 +118,17 @@ std::vector<std::optional<std::size_t>> matched_blocks(const Interfaces& both, c
     for (std::size_t e = 0; e < expected.size(); ++e)
         if (matched[e])
             both.check_block(own[*matched[e]], expected[e]);
-        else if (expected[e].name != block_of_uniforms)
+        else if (expected[e].name != block_of_uniforms && !by_host)
             both.refuse_missing(true, kind_of(expected[e]), expected[e].name);
     for (std::size_t o = 0; o < own.size(); ++o)
-        if (!is_taken[o] && own[o].name != block_of_uniforms)
+        if (!is_taken[o] && own[o].name != block_of_uniforms && !by_host)
             both.refuse_missing(false, kind_of(own[o]), own[o].name);
     const auto are_one = [](const text::Block& a, const text::Block& b) {
         return a.binding && a.binding == b.binding && a.is_storage == b.is_storage;
     };
     for (std::size_t a = 0; a < expected.size(); ++a)
         for (std::size_t b = 0; b < a; ++b)
-            if (matched[a] && matched[b] &&
+            if (matched[a] && matched[b] && !by_host &&
                 are_one(expected[a], expected[b]) != are_one(own[*matched[a]], own[*matched[b]]))
                 both.refuse(fmt::format("blocks {} and {} {} one buffer", own[*matched[b]].name, own[*matched[a]].name,
                                         are_one(expected[a], expected[b]) ? "are not" : "are"),
@@ -161,45 +161,47 @@ std::vector<std::optional<std::size_t>> matched_by_name(const std::vector<Variab
     return matched;
 }
 
-std::vector<std::size_t> all_of(const std::vector<std::optional<std::size_t>>& matched) {
-    std::vector<std::size_t> all;
-    for (const std::optional<std::size_t>& one : matched)
-        all.push_back(one.value());
-    return all;
-}
-
 } // namespace
 
-MatchedNames matched_names(const Examination& of, const StageText& text, const StageText& reference) {
+MatchedNames matched_names(const Examination& of, const StageText& text, const StageText& reference, bool by_host) {
     const Interfaces both(text, reference);
     const text::Program &own = text.program, &expected = reference.program;
-    both.check_stage();
+    both.check_stage(by_host);
     const auto name = [](const auto& one) { return one.name; };
     const auto name_or_location = [](const text::StageVariable& one) { return text::name_of(one); };
-    MatchedNames names{.blocks = matched_blocks(both, own.blocks, expected.blocks), .images = {}, .outputs = {}};
-    names.images = all_of(matched_by_name(
+    const auto name_of_output = [&](const text::StageVariable& one) {
+        const std::string whole = text::name_of(one);
+        const std::size_t part = whole.rfind('.') + 1, prefix = whole.find('_', part);
+        return !by_host || one.builtin || prefix == std::string::npos ? whole.substr(by_host ? part : 0)
+                                                                      : whole.substr(prefix + 1);
+    };
+    const auto missing = [&](bool is_in_reference, std::string_view kind, const std::string& one) {
+        if (!by_host)
+            both.refuse_missing(is_in_reference, kind, one);
+    };
+    MatchedNames names{
+        .blocks = matched_blocks(both, own.blocks, expected.blocks, by_host), .images = {}, .outputs = {}};
+    names.images = matched_by_name(
         own.images, expected.images, name, [&](const auto& a, const auto& b) { both.check_image(a, b); },
-        [&](bool is_in_reference, const text::ImageUniform& one) {
-            both.refuse_missing(is_in_reference, kind_of(one), one.name);
-        }));
-    names.outputs = all_of(matched_by_name(
-        own.stage_outputs, expected.stage_outputs, name_or_location,
+        [&](bool is_in_reference, const text::ImageUniform& one) { missing(is_in_reference, kind_of(one), one.name); });
+    names.outputs = matched_by_name(
+        own.stage_outputs, expected.stage_outputs, name_of_output,
         [&](const auto& a, const auto& b) { both.check_variable("output", a, b); },
         [&](bool is_in_reference, const text::StageVariable& one) {
-            both.refuse_missing(is_in_reference, "output", text::name_of(one));
-        }));
+            missing(is_in_reference, "output", text::name_of(one));
+        });
     matched_by_name(
         own.stage_inputs, expected.stage_inputs, name_or_location,
         [&](const auto& a, const auto& b) { both.check_variable("input", a, b); },
         [&](bool is_in_reference, const text::StageVariable& one) {
             if (one.is_read && !one.builtin)
-                both.refuse_missing(is_in_reference, "input", text::name_of(one));
+                missing(is_in_reference, "input", text::name_of(one));
         });
     matched_by_name(
         own.uniforms, expected.uniforms, name,
         [&](const auto& a, const auto& b) { both.check_variable("uniform", a, b); },
         [&](bool is_in_reference, const text::PlainUniform& one) {
-            if (!of.uniforms.contains(one.name))
+            if (!by_host && !of.uniforms.contains(one.name))
                 throw Error(fmt::format("{}: uniform {} is in this text alone; expected its value, --uniform {}=...",
                                         (is_in_reference ? reference : text).file, one.name, one.name));
         });
@@ -214,12 +216,16 @@ std::optional<text::WrittenPlace> MatchedNames::place(const StageText& text, con
             return {};
         place.number = static_cast<std::uint32_t>(*blocks[place.number]);
     } else if (place.is_of_image()) {
-        place.number = static_cast<std::uint32_t>(images[place.number]);
+        if (!images[place.number])
+            return {};
+        place.number = static_cast<std::uint32_t>(*images[place.number]);
     } else if (place.space == Space::output) {
         for (std::size_t o = 0; o < outputs.size(); ++o)
             if (const text::StageVariable& one = reference.program.stage_outputs[o];
                 place.word >= one.cell && place.word < one.cell + one.cells) {
-                place.word += text.program.stage_outputs[outputs[o]].cell;
+                if (!outputs[o])
+                    return {};
+                place.word += text.program.stage_outputs[*outputs[o]].cell;
                 place.word -= one.cell;
                 return place;
             }
@@ -229,13 +235,15 @@ std::optional<text::WrittenPlace> MatchedNames::place(const StageText& text, con
 }
 
 MadeUpWorld world_of_reference(const Examination& of, const MatchedNames& names, const StageText& text,
-                               const StageText& reference, const MadeUpWorld& world) {
+                               const StageText& reference, const MadeUpWorld& world, const MadeUpWorld* own_world) {
     const text::Program& program = reference.program;
     MadeUpWorld made;
     made.words.reserve(program.blocks.size() + program.images.size());
     for (std::size_t b = 0; b < program.blocks.size(); ++b) {
-        std::vector<std::uint32_t>& words = made.words.emplace_back(
-            names.blocks[b] ? world.words[*names.blocks[b]] : std::vector<std::uint32_t>(program.blocks[b].words(0)));
+        std::vector<std::uint32_t>& words =
+            made.words.emplace_back(names.blocks[b]        ? world.words[*names.blocks[b]]
+                                    : own_world != nullptr ? own_world->words[b]
+                                                           : std::vector<std::uint32_t>(program.blocks[b].words(0)));
         give_members(of, program.blocks[b], words);
         made.bindings.blocks.emplace_back(words);
     }
@@ -246,10 +254,14 @@ MadeUpWorld world_of_reference(const Examination& of, const MatchedNames& names,
             made.bindings.blocks[b] = made.words[static_cast<std::size_t>(from - names.blocks.begin())];
         }
     for (std::size_t i = 0; i < program.images.size(); ++i) {
-        const std::size_t from = names.images[i];
-        text::TexelMemory texels = world.bindings.images[from];
+        const std::optional<std::size_t> from = names.images[i];
+        if (!from && own_world == nullptr)
+            throw Error(fmt::format("{}: {} {} is bound to nothing", reference.file, kind_of(program.images[i]),
+                                    program.images[i].name));
+        text::TexelMemory texels = from ? world.bindings.images[*from] : own_world->bindings.images[i];
         texels.name = program.images[i].name;
-        texels.words = made.words.emplace_back(world.words[text.program.blocks.size() + from]);
+        texels.words = made.words.emplace_back(from ? world.words[text.program.blocks.size() + *from]
+                                                    : own_world->words[program.blocks.size() + i]);
         made.bindings.images.push_back(texels);
     }
     made.bindings.uniforms = given_uniforms(of, program);
@@ -257,7 +269,8 @@ MadeUpWorld world_of_reference(const Examination& of, const MatchedNames& names,
 }
 
 text::StageRun run_of_reference(const Examination& of, const StageText& reference, const text::StageRun& run) {
-    text::StageRun made = made_up_run(of, reference.program);
+    text::StageRun made = run;
+    made.inputs = made_up_run(of, reference.program).inputs;
     for (auto& [name, words] : made.inputs)
         if (const auto own = run.inputs.find(name); own != run.inputs.end())
             words = own->second;

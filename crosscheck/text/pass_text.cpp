@@ -181,8 +181,6 @@ bool PassText::is_text_of(const ShaderFolders& folders) const {
     return source_->module->words == other->module->words;
 }
 
-std::string PassText::line_text(std::uint32_t line) const { return lockstep::line_text(*source_, line); }
-
 bool PassText::writes(std::uint8_t resource) const {
     return std::find(written_.begin(), written_.end(), resource) != written_.end();
 }

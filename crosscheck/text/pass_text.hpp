@@ -38,8 +38,7 @@ class PassText {
     [[nodiscard]] const GlPass& pass() const { return pass_; }
     /// Whether the pass's shader of these folders is this text.
     [[nodiscard]] bool is_text_of(const ShaderFolders& folders) const;
-    /// A line as Program::lines has it, without what is around it.
-    [[nodiscard]] std::string line_text(std::uint32_t line) const;
+    [[nodiscard]] const ShaderSource& source() const { return *source_; }
     PassText(const PassText&) = delete;
     PassText& operator=(const PassText&) = delete;
     [[nodiscard]] std::size_t items(const PassInput& in) const; ///< that its dispatch has invocations for

@@ -41,7 +41,7 @@ class WitnessedPass {
         return dispatch_.writer(resource, item);
     }
     [[nodiscard]] const BoundStage& stage() const { return stage_; }
-    [[nodiscard]] std::string line(std::uint32_t line) const { return text_.line_text(line); }
+    [[nodiscard]] const ShaderSource& source() const { return text_.source(); }
     /// Where another text's block or image is in this one.
     [[nodiscard]] std::optional<text::WrittenPlace> place_of(const WitnessedPass& other,
                                                              text::WrittenPlace place) const {
@@ -58,8 +58,7 @@ class WitnessedPass {
                 [this](std::uint32_t invocation, std::span<const text::ForcedRow> forced) {
                     return stage_.traced(invocation, forced);
                 },
-                [this](const text::WrittenPlace& place) { return common(place); },
-                [this](std::uint32_t line) { return text_.line_text(line); }};
+                [this](const text::WrittenPlace& place) { return common(place); }, text_.source()};
     }
 
   private:
@@ -103,8 +102,7 @@ std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& re
     if (!shares(wrong.program()) && !shares(reference.program()))
         return witness_lines(of_wrong.text(), of_reference.text(), wrong_items, writers(others), is_own);
     return group_witness_lines(
-        {of_wrong.stage(), [&](std::uint32_t line) { return of_wrong.line(line); }},
-        {of_reference.stage(), [&](std::uint32_t line) { return of_reference.line(line); }}, wrong_items,
+        {of_wrong.stage(), of_wrong.source()}, {of_reference.stage(), of_reference.source()}, wrong_items,
         writers(others), [&](const text::WrittenPlace& place) { return of_wrong.place_of(of_reference, place); },
         is_own);
 }

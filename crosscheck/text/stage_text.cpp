@@ -113,11 +113,15 @@ StageText read_stage(const std::filesystem::path& file, const ShaderDefines& def
             fmt::format("{}: expected a stage NAME.comp, NAME.vert, NAME.geom or NAME.frag, or one of these with "
                         ".spv behind it",
                         plain_line(file.string())));
-    auto source = std::make_shared<const ShaderSource>(load_any_dialect(file, *stage, defines));
+    return stage_text(std::make_shared<const ShaderSource>(load_any_dialect(file, *stage, defines)),
+                      plain_line(file.string()), constants);
+}
+
+StageText stage_text(std::shared_ptr<const ShaderSource> source, std::string file, ConstantExpressions constants) {
     text::Module module = text::read_module(spirv_of(*source, constants),
                                             [source](std::uint32_t line) { return line_name(*source, line); });
     text::Program program = text::decoded(module);
-    return {plain_line(file.string()), std::move(source), std::move(module), std::move(program)};
+    return {std::move(file), std::move(source), std::move(module), std::move(program)};
 }
 
 std::string line_text(const ShaderSource& stage, std::uint32_t line) {

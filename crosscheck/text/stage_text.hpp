@@ -29,6 +29,10 @@ std::optional<Stage> stage_of(const std::filesystem::path& file);
 StageText read_stage(const std::filesystem::path& file, const ShaderDefines& defines,
                      ConstantExpressions constants = ConstantExpressions::folded);
 
+/// The same of what was read already. `file`: as messages name it.
+StageText stage_text(std::shared_ptr<const ShaderSource> source, std::string file,
+                     ConstantExpressions constants = ConstantExpressions::folded);
+
 /// A line of the stage's text, from 1, without its comment and what is blank around it.
 std::string line_text(const ShaderSource& stage, std::uint32_t line);
 

@@ -45,17 +45,20 @@ class BothRuns {
         for (const std::optional<std::size_t>& block : names_.blocks)
             words.push_back(block ? std::span<const std::uint32_t>(run_.world.words[run_.world.words_of_block(*block)])
                                   : std::span<const std::uint32_t>());
-        for (const std::size_t image : names_.images)
-            words.emplace_back(run_.world.words[run_.world.words_of_image(image)]);
+        for (const std::optional<std::size_t>& image : names_.images)
+            words.push_back(image ? std::span<const std::uint32_t>(run_.world.words[run_.world.words_of_image(*image)])
+                                  : std::span<const std::uint32_t>());
         std::vector<ComparedWords> all = compared_words(reference_.program, expected_.world, expected_.writers, words);
         const auto output_words = [](const WatchedRun& run, const text::StageVariable& output) {
             return std::span<const std::uint32_t>(run.outputs.outputs.at(text::name_of(output)));
         };
         for (std::size_t o = 0; o < names_.outputs.size(); ++o) {
+            if (!names_.outputs[o])
+                continue;
             const text::StageVariable& output = reference_.program.stage_outputs[o];
             all.push_back({{Space::output, 0, output.cell},
                            output_words(expected_, output),
-                           output_words(run_, text_.program.stage_outputs[names_.outputs[o]]),
+                           output_words(run_, text_.program.stage_outputs[*names_.outputs[o]]),
                            {},
                            output.cells,
                            emitted_by_});
@@ -98,7 +101,7 @@ PassStage pass_stage(spv::ExecutionModel stage) {
 }
 
 /// What GLSL alone says of what computes the text.
-JudgedBy judged_by(const text::Program& reference) {
+JudgedBy judged_by(const text::Program& reference, std::size_t most) {
     const Profile& profile = examined_profile();
     const KnownOperations glsl{.converts = profile.converts};
     const PassStage stage = pass_stage(reference.stage);
@@ -106,7 +109,7 @@ JudgedBy judged_by(const text::Program& reference) {
             .known = stage == PassStage::compute    ? in_compute_stage(glsl, profile)
                      : stage == PassStage::fragment ? in_fragment_stage(glsl)
                                                     : glsl,
-            .most = 20'000,
+            .most = most,
             .why_not =
                 reference.stage == spv::ExecutionModelGeometry ? "a geometry stage is not followed by sets" : ""};
 }
@@ -144,9 +147,8 @@ template <class T> std::vector<T> some_of(const std::vector<T>& all) {
 SomeWriters some_writers(const BothRuns& both, std::span<const ComparedWords> all, const WordComparison& compared) {
     using Pair = std::pair<std::optional<std::uint32_t>, std::optional<std::uint32_t>>; // writers in both texts
     std::set<Pair> wrong, differing, right;
-    for (const auto* const words : {&compared.wrong, &compared.unjudged})
-        for (const ComparedWord& word : *words)
-            wrong.emplace(both.own_writer(word), word.invocation);
+    for (const ComparedWord& word : compared.wrong.empty() ? compared.unjudged : compared.wrong)
+        wrong.emplace(both.own_writer(word), word.invocation);
     for (const ComparedWords& one : all)
         for (std::size_t w = 0; w < one.expected.size(); ++w) {
             const ComparedWord word = one.word(w);
@@ -200,41 +202,46 @@ std::vector<std::uint32_t> all_invocations(const BoundStage& of) {
 /// Lines of the text that have no counterpart in the reference.
 std::vector<WitnessLine> lines_of(const StageText& text, const StageText& reference, const BothRuns& both,
                                   const BoundStage& own, const BoundStage& right, std::span<const ComparedWords> all,
-                                  const WordComparison& compared) {
+                                  const WordComparison& compared,
+                                  const std::function<bool(std::string_view where)>& is_own) {
     SomeWriters some = some_writers(both, all, compared);
     if (some.wrong.empty() && own.run == nullptr) // what several change: some of all
         for (const std::uint32_t one : some_of(all_invocations(own)))
             some.wrong.push_back({one, one});
     const auto common = [&](const text::WrittenPlace& place) { return both.names().place(text, reference, place); };
-    const auto line_in = [](const StageText& of) {
-        return [&of](std::uint32_t line) { return line_text(*of.source, line); };
-    };
     if (shares(text.program) || shares(reference.program))
-        return group_witness_lines({own, line_in(text)}, {right, line_in(reference)}, some.wrong, some.right, common,
-                                   [](std::string_view) { return true; });
+        return group_witness_lines({own, *text.source}, {right, *reference.source}, some.wrong, some.right, common,
+                                   is_own);
     const auto runs_of = [](const BoundStage& bound) {
         return [&bound](std::uint32_t invocation, std::span<const text::ForcedRow> forced) {
             return bound.traced(invocation, forced);
         };
     };
     return witness_lines({text.program, runs_of(own),
-                          [](const text::WrittenPlace& place) { return std::optional(place); }, line_in(text)},
-                         {reference.program, runs_of(right), common, line_in(reference)}, some.wrong, some.right,
-                         [](std::string_view) { return true; });
+                          [](const text::WrittenPlace& place) { return std::optional(place); }, *text.source},
+                         {reference.program, runs_of(right), common, *reference.source}, some.wrong, some.right,
+                         is_own);
 }
 
 } // namespace
 
 TextComparison compare_texts(const Examination& of, const StageText& text, const StageText& reference,
-                             const MadeUpWorld& world, const text::StageRun& stage, const WatchedRun& run) {
+                             const MadeUpWorld& world, const text::StageRun& stage, const WatchedRun& run,
+                             const HostedTexts* hosted) {
     constexpr std::size_t most_lines = 3;
     TextComparison made;
     made.reference = reference.file;
-    MatchedNames names = matched_names(of, text, reference);
-    const MadeUpWorld before = world_of_reference(of, names, text, reference, world);
+    MatchedNames names = matched_names(of, text, reference, hosted != nullptr);
+    const MadeUpWorld before =
+        world_of_reference(of, names, text, reference, world, hosted != nullptr ? hosted->reference : nullptr);
     const bool is_compute = reference.program.stage == spv::ExecutionModelGLCompute;
     const text::StageRun expected_stage = is_compute ? text::StageRun{} : run_of_reference(of, reference, stage);
-    const WatchedRun expected = run_watched(of, reference.program, before.copy(), expected_stage);
+    Examination of_reference = of;
+    for (std::size_t axis = 0; axis < 3; ++axis) { // as many invocations, in groups of its size
+        const std::uint32_t size = reference.program.group[axis];
+        of_reference.groups[axis] = (of.groups[axis] * text.program.group[axis] + size - 1) / size;
+    }
+    const WatchedRun expected = run_watched(of_reference, reference.program, before.copy(), expected_stage);
     made.findings = named(expected.findings, reference.program);
     if (is_endless(run.findings) || is_endless(expected.findings)) {
         made.not_compared = "a loop does not end";
@@ -255,11 +262,15 @@ TextComparison compare_texts(const Examination& of, const StageText& text, const
             fmt::format("{}: neither it nor {} writes anything with these inputs; expected --uniform, --size or "
                         "--groups with which they do",
                         text.file, reference.file));
-    const auto stage_of_run = [&](const StageText& one, const MadeUpWorld& from, const text::StageRun& how) {
-        return BoundStage{one.program, from.bindings, examined_profile(), of.groups, is_compute ? nullptr : &how};
+    const auto stage_of_run = [&](const StageText& one, const MadeUpWorld& from, const Examination& by,
+                                  const text::StageRun& how) {
+        return BoundStage{one.program, from.bindings, examined_profile(), by.groups, is_compute ? nullptr : &how};
     };
-    const BoundStage own = stage_of_run(text, world, stage), right = stage_of_run(reference, before, expected_stage);
-    const WordComparison compared = compare_words(right, all, judged_by(reference.program));
+    const BoundStage own = stage_of_run(text, world, of, stage),
+                     right = stage_of_run(reference, before, of_reference, expected_stage);
+    constexpr std::size_t most_judged = 20'000, enough_for_lines = 2'000;
+    const WordComparison compared =
+        compare_words(right, all, judged_by(reference.program, hosted != nullptr ? enough_for_lines : most_judged));
     made.words = compared.words;
     made.differing = compared.differing;
     made.legal = compared.legal;
@@ -269,7 +280,9 @@ TextComparison compare_texts(const Examination& of, const StageText& text, const
         for (const ComparedWord& one : first_of_each(*words, most_lines - made.first.size()))
             made.first.push_back(line_of(text, own, both, one));
     if (made.differing > made.legal) {
-        made.lines = lines_of(text, reference, both, own, right, all, compared);
+        made.lines = lines_of(
+            text, reference, both, own, right, all, compared,
+            hosted != nullptr ? hosted->is_own : [](std::string_view) { return true; });
     } else if (of.integers == 0 && holds_integers(text.program)) {
         made.weak = "integers of arrays and images are 0; --integers 100 makes up others";
     }

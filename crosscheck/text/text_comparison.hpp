@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -35,9 +37,18 @@ struct TextComparison {
     [[nodiscard]] nlohmann::json json() const;
 };
 
+/// Of texts that a host runs, each in a run of its own.
+struct HostedTexts {
+    /// As witness_lines has it.
+    std::function<bool(std::string_view where)> is_own;
+    const MadeUpWorld* reference = nullptr; ///< what the reference's was bound to; null: it did not run
+};
+
 /// Runs the reference from where the text's run began, and compares what both leave. `world` and `stage`: what the text
-/// was run from. Throws Error where the interfaces differ, and where neither text writes anything.
+/// was run from. Throws Error where the interfaces differ, and where neither text writes anything. `hosted`: what both
+/// have in common is compared (matched_names).
 TextComparison compare_texts(const Examination& of, const StageText& text, const StageText& reference,
-                             const MadeUpWorld& world, const text::StageRun& stage, const WatchedRun& run);
+                             const MadeUpWorld& world, const text::StageRun& stage, const WatchedRun& run,
+                             const HostedTexts* hosted = nullptr);
 
 } // namespace lockstep

@@ -29,20 +29,6 @@ std::size_t place_of(const Resource& about, const Component& one) {
     return place;
 }
 
-/// What a word that has the bits of a float of a set is in a field of this type.
-Interval bits_of(const Interval& set, Scalar scalar) {
-    if (scalar == Scalar::float32)
-        return set;
-    const bool has_one_sign = set.low > 0.0 || set.high < 0.0 || (set.low == 0.0 && !std::signbit(set.low));
-    if (set.any || !has_one_sign)
-        return Interval::anything();
-    const auto number = [&](double x) {
-        return item_twin::set_of(std::bit_cast<std::uint32_t>(static_cast<float>(x)), scalar);
-    };
-    return set.high < 0.0 ? interval::hull(number(set.high), number(set.low))
-                          : interval::hull(number(set.low), number(set.high));
-}
-
 /// The last dispatch that some pass of it ran: those that continue the pass take what it wrote from here.
 struct LastDispatch {
     std::mutex mutex;
@@ -181,9 +167,7 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
                     if (place >= record.size())
                         continue;
                     const Component& c = record[place];
-                    const Scalar scalar = about.fields[c.field].scalar;
-                    outcome.values[place_of(about, c)] =
-                        word.is_real ? bits_of(word.set, scalar) : item_twin::set_of(word.word, scalar);
+                    outcome.values[place_of(about, c)] = word.set_in(about.fields[c.field].scalar);
                 }
             all.push_back(std::move(outcome));
         }

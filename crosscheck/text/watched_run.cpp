@@ -17,23 +17,23 @@ bool is_endless(const text::Findings& findings) { return std::ranges::any_of(fin
 
 WatchedRun run_watched(const Examination& of, const text::Program& program, MadeUpWorld world,
                        const text::StageRun& stage) {
+    MadeUpWorld again = world.copy();
     WatchedRun run{.world = std::move(world), .writers = {}, .outputs = {}, .findings = {}};
     if (program.stage != spv::ExecutionModelGLCompute) {
         run.outputs = text::run_stage(program, stage, run.world.bindings, examined_profile(), run.findings);
         return run;
     }
     text::Dispatch dispatch{.groups = of.groups,
-                            .is_watched = true,
+                            .is_watched = of.is_watched,
                             .most_branches = most_branches,
                             .subgroup_size = of.subgroup_size,
                             .writers = of.reference.empty() ? nullptr : &run.writers};
     if (!text::run_dispatch(program, dispatch, run.world.bindings, examined_profile(), run.findings) ||
-        is_endless(run.findings))
+        is_endless(run.findings) || !of.is_watched)
         return run;
     // Groups that wait for earlier ones find what they wait for, since these run first: run the other way round, they
     // do not.
     text::Findings reversed;
-    MadeUpWorld again = made_up_world(of, program);
     dispatch.writers = nullptr;
     dispatch.is_reversed = true;
     text::run_dispatch(program, dispatch, again.bindings, examined_profile(), reversed);

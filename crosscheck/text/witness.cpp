@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/text/stage_text.hpp"
 #include "reference/model/error.hpp"
 #include "reference/text/alignment.hpp"
 
@@ -38,13 +39,146 @@ std::string what_of(const text::Trace& trace, const text::Suspect& suspect) {
                            : fmt::format("{}, which the reference does not", made);
 }
 
+std::set<std::string> lines_in(const ShaderSource& stage) {
+    std::set<std::string> lines;
+    const auto count = static_cast<std::uint32_t>(std::ranges::count(stage.text, '\n')) + 1;
+    for (std::uint32_t line = 1; line <= count; ++line)
+        lines.insert(line_text(stage, line));
+    return lines;
+}
+
+/// Lines that a row stands on: its own, then those of the calls that it is in; of files that are the user's.
+struct Chain {
+    std::vector<std::uint32_t> lines;
+    bool is_called = false; ///< the row's own line lies in a file that is none of the user's
+};
+
+class OwnLines {
+  public:
+    OwnLines(const text::Program& program, const std::function<bool(std::string_view where)>& is_own)
+        : program_(program), is_own_(is_own) {}
+    [[nodiscard]] Chain chain(const text::Trace& trace, const text::TraceRow& row) {
+        Chain chain;
+        for (const std::uint32_t line : text::lines_of(program_, trace, row))
+            if (!is_own(line))
+                chain.is_called = chain.is_called || chain.lines.empty();
+            else if (chain.lines.empty() || chain.lines.back() != line)
+                chain.lines.push_back(line);
+        return chain;
+    }
+
+  private:
+    bool is_own(std::uint32_t line) {
+        const auto [known, is_new] = known_.try_emplace(line);
+        if (is_new)
+            known->second = is_own_(program_.line_name(line));
+        return known->second;
+    }
+    const text::Program& program_;
+    const std::function<bool(std::string_view where)>& is_own_;
+    std::map<std::uint32_t, bool> known_;
+};
+
+/// Which calls of a line were come by, and which of them are blamed. Where one of several is, the call is at fault, and
+/// not the function; so it is where both texts have the function's line and not the call's.
+class Calls {
+  public:
+    void come_by(const Chain& chain) { add(all_, chain.lines); }
+    void blame(const Chain& chain) { add(blamed_, chain.lines); }
+    [[nodiscard]] std::uint32_t line_of(const std::vector<std::uint32_t>& chain,
+                                        const std::function<bool(std::uint32_t)>& is_common) const {
+        if (const auto own = std::ranges::find_if_not(chain, is_common); own != chain.end() && own != chain.begin())
+            return *own;
+        std::size_t at = 0;
+        while (at + 1 < chain.size() && blamed_.at(chain[at]).size() == 1 && all_.at(chain[at]).size() > 1)
+            ++at;
+        return chain[at];
+    }
+
+  private:
+    using CallsOfLines = std::map<std::uint32_t, std::set<std::uint32_t>>;
+    static void add(CallsOfLines& to, const std::vector<std::uint32_t>& chain) {
+        for (std::size_t at = 0; at + 1 < chain.size(); ++at)
+            to[chain[at]].insert(chain[at + 1]);
+    }
+    CallsOfLines all_, blamed_;
+};
+
 /// What speaks for a line.
 struct Line {
     double score = 0.0;
     double loudest = 0.0;      ///< of one item
     std::string what;          ///< of that item
     bool only_compares = true; ///< and no other answer repairs
+    bool repairs = false;      ///< of the reference's: with the other answer it writes what the text does
 };
+
+/// What one row of an item's run says of its line.
+struct Blame {
+    std::size_t item = 0;
+    Chain chain;
+    double weight = 0.0;
+    std::string what;
+    bool only_compares = false, repairs = false;
+};
+
+/// By line; each item's rows share what the item says.
+std::map<std::uint32_t, Line> lines_by(const std::vector<Blame>& blames, const Calls& calls,
+                                       const std::function<bool(std::uint32_t)>& is_common) {
+    constexpr double of_common = 0.3; // a line that both texts have
+    std::map<std::size_t, std::map<std::uint32_t, double>> by_item;
+    std::map<std::uint32_t, Line> lines;
+    for (const Blame& one : blames) {
+        const std::uint32_t at = calls.line_of(one.chain.lines, is_common);
+        // Of a call of what is not the user's, that both texts have the line says nothing.
+        const double own_weight = (!one.chain.is_called && is_common(at) ? of_common : 1.0) * one.weight;
+        double& weight = by_item[one.item][at];
+        weight = std::max(weight, own_weight);
+        Line& line = lines[at];
+        line.only_compares = line.only_compares && one.only_compares;
+        line.repairs = line.repairs || one.repairs;
+        if (one.weight > line.loudest) {
+            line.loudest = one.weight;
+            line.what = one.what;
+        }
+    }
+    for (const auto& [item, weights] : by_item) {
+        double all = 0.0;
+        for (const auto& [at, weight] : weights)
+            all += weight * weight;
+        for (const auto& [at, weight] : weights) // beside what repairs, the others say little
+            lines[at].score += weight * weight * weight / all;
+    }
+    return lines;
+}
+
+constexpr double repair = 3.0, repair_of_output = 1.0, no_repair = 0.5;
+
+/// What the reference's run of an item came by, and the text's never: lines of the reference.
+std::vector<Blame> missing_of(const text::TracedRun& right, const text::TracedRun& run, std::size_t item,
+                              OwnLines& lines) {
+    std::vector<Blame> missed, counted_lines;
+    for (const std::uint32_t row : text::missing_rows(right, run)) {
+        const text::TraceRow& one = right.trace.rows[row];
+        constexpr std::uint32_t counted = 16; // 0 and what loops count say nothing
+        const bool is_common = one.is_real ? (one.bits & 0x7fffffffU) == 0 : one.bits <= counted;
+        const bool is_comparison = one.kind == text::TraceRow::Kind::comparison;
+        const bool is_store = one.kind == text::TraceRow::Kind::store;
+        // A comparison counts where it keeps the reference from writing at all.
+        if (is_comparison ? !right.words.empty() : is_common && !is_store)
+            continue;
+        Chain chain = lines.chain(right.trace, one);
+        if (chain.lines.empty())
+            continue;
+        std::string what = is_comparison ? compared(right.trace, one)
+                                         : fmt::format("{} {}", is_store ? "writes" : "makes",
+                                                       text::value_text(one.bits, one.is_real));
+        (one.is_real || is_comparison || is_store ? missed : counted_lines)
+            .push_back({item, std::move(chain), 1.0, std::move(what)});
+    }
+    // Indices and what loops count differ with the way a text is written.
+    return missed.empty() ? counted_lines : missed;
+}
 
 } // namespace
 
@@ -78,81 +212,67 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
                                        std::span<const ItemWriters> items, std::span<const ItemWriters> others,
                                        const std::function<bool(std::string_view where)>& is_own,
                                        bool is_written_otherwise) try {
-    constexpr double repair = 3.0, repair_of_output = 1.0, no_repair = 0.5, floor_of_score = 0.2;
+    constexpr double floor_of_score = 0.2;
     constexpr std::size_t most_lines = 3;
     const text::Program &program = wrong.program, &expected = reference.program;
-    const auto line_in = [&](const text::Program& of, const text::Trace& trace,
-                             const text::TraceRow& row) -> std::optional<std::uint32_t> {
-        for (const std::uint32_t line : text::lines_of(of, trace, row))
-            if (is_own(of.line_name(line)))
-                return line;
-        return {};
-    };
-    const auto line_of = [&](const text::Trace& trace, const text::TraceRow& row) {
-        return line_in(program, trace, row);
-    };
-    std::map<std::uint32_t, Line> missing; // lines of the reference
-    std::map<std::uint32_t, Line> lines;
+    std::vector<Blame> blames, missing_blames;
+    OwnLines own_lines(program, is_own), expected_lines(expected, is_own);
+    Calls calls, expected_calls;
     std::size_t looked_at = 0;
     for (const auto& [own, invocation] : items) {
         if (!invocation && !own)
             continue;
-        const std::uint32_t number = own.value_or(invocation.value_or(0));
-        const text::TracedRun run = common_run(wrong, number),
-                              right = common_run(reference, invocation.value_or(number));
+        const std::uint32_t number = own.value_or(invocation.value_or(0)),
+                            expected_number = invocation.value_or(number);
+        const text::TracedRun run = common_run(wrong, number), right = common_run(reference, expected_number);
         if (run.words == right.words)
             continue; // the text does not differ: the driver does
-        ++looked_at;
+        for (const text::TraceRow& row : run.trace.rows)
+            calls.come_by(own_lines.chain(run.trace, row));
+        for (const text::TraceRow& row : right.trace.rows)
+            expected_calls.come_by(expected_lines.chain(right.trace, row));
+        bool is_repaired = false;
         const std::vector<text::Suspect> suspects =
             text::suspects_of(run, right, [&](std::span<const text::ForcedRow> forced) {
                 return common_run(wrong, number, forced).words;
             });
-        std::map<std::uint32_t, double> of_item;
         for (const text::Suspect& one : suspects) {
             const text::TraceRow& row = run.trace.rows[one.row];
             if (is_written_otherwise && row.kind == text::TraceRow::Kind::load &&
                 row.place.space == text::WrittenPlace::Space::shared) // another invocation made it
                 continue;
-            const double weight = one.repairs ? (one.is_output ? repair_of_output : repair) : no_repair;
-            const std::optional<std::uint32_t> own_line = line_of(run.trace, run.trace.rows[one.row]);
-            if (!own_line)
+            Chain chain = own_lines.chain(run.trace, row);
+            if (chain.lines.empty())
                 continue;
-            const std::uint32_t at = *own_line;
-            of_item[at] = std::max(of_item[at], weight);
-            Line& line = lines[at];
-            line.only_compares =
-                line.only_compares && !one.repairs && run.trace.rows[one.row].kind == text::TraceRow::Kind::comparison;
-            if (weight > line.loudest) {
-                line.loudest = weight;
-                line.what = what_of(run.trace, one);
+            calls.blame(chain);
+            is_repaired = is_repaired || (one.repairs && !one.is_output);
+            blames.push_back({looked_at, std::move(chain),
+                              one.repairs ? (one.is_output ? repair_of_output : repair) : no_repair,
+                              what_of(run.trace, one), !one.repairs && row.kind == text::TraceRow::Kind::comparison});
+        }
+        std::vector<Blame> missed = missing_of(right, run, looked_at, expected_lines);
+        // A comparison that the text leaves out: with its other answer the reference does what the text does.
+        if (!is_repaired)
+            for (const text::Suspect& one : text::suspects_of(right, run, [&](std::span<const text::ForcedRow> forced) {
+                     return common_run(reference, expected_number, forced).words;
+                 })) {
+                const text::TraceRow& row = right.trace.rows[one.row];
+                Chain chain = expected_lines.chain(right.trace, row);
+                if (one.repairs && row.kind == text::TraceRow::Kind::comparison && !chain.lines.empty())
+                    missed.push_back({looked_at, std::move(chain), repair, compared(right.trace, row), false, true});
             }
+        for (Blame& one : missed) {
+            expected_calls.blame(one.chain);
+            missing_blames.push_back(std::move(one));
         }
-        std::set<std::uint32_t> missed, counted_lines;
-        for (const std::uint32_t row : text::missing_rows(right, run)) {
-            const text::TraceRow& one = right.trace.rows[row];
-            constexpr std::uint32_t counted = 16; // 0 and what loops count say nothing
-            const bool is_common = one.is_real ? (one.bits & 0x7fffffffU) == 0 : one.bits <= counted;
-            const bool is_comparison = one.kind == text::TraceRow::Kind::comparison;
-            const bool is_store = one.kind == text::TraceRow::Kind::store;
-            // A comparison counts where it keeps the reference from writing at all.
-            const auto at = (is_comparison ? !right.words.empty() : is_common && !is_store)
-                                ? std::nullopt
-                                : line_in(expected, right.trace, one);
-            if (!at)
-                continue;
-            if (missing[*at].what.empty())
-                missing[*at].what = is_comparison ? compared(right.trace, one)
-                                                  : fmt::format("{} {}", is_store ? "writes" : "makes",
-                                                                text::value_text(one.bits, one.is_real));
-            (one.is_real || is_comparison || is_store ? missed : counted_lines).insert(*at);
-        }
-        if (missed.empty()) // indices and what loops count differ with the way a text is written
-            missed = std::move(counted_lines);
-        for (const std::uint32_t at : missed)
-            missing[at].score += 1.0 / static_cast<double>(missed.size());
-        for (const auto& [at, weight] : of_item)
-            lines[at].score += weight / static_cast<double>(of_item.size());
+        ++looked_at;
     }
+    const std::set<std::string> texts = lines_in(wrong.source), expected_texts = lines_in(reference.source);
+    std::map<std::uint32_t, Line> lines = lines_by(
+        blames, calls, [&](std::uint32_t line) { return expected_texts.contains(line_text(wrong.source, line)); });
+    const std::map<std::uint32_t, Line> missing = lines_by(missing_blames, expected_calls, [&](std::uint32_t line) {
+        return texts.contains(line_text(reference.source, line));
+    });
     if (looked_at == 0)
         return {};
     // A line that differs where both write the same is another way to write it.
@@ -167,8 +287,8 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
         ++alike;
         std::set<std::uint32_t> unmatched;
         for (const std::uint32_t row : text::unmatched_rows(run, right))
-            if (const auto line = line_of(run.trace, run.trace.rows[row]))
-                unmatched.insert(*line);
+            for (const std::uint32_t line : own_lines.chain(run.trace, run.trace.rows[row]).lines)
+                unmatched.insert(line);
         for (const std::uint32_t line : unmatched)
             excused[line] += 1.0;
     }
@@ -189,7 +309,7 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
             continue;
         if (lines[at].only_compares)
             only_compared.insert(program.line_name(at));
-        found.push_back({program.line_name(at), wrong.line_text(at), lines[at].what});
+        found.push_back({program.line_name(at), line_text(wrong.source, at), lines[at].what});
     }
     // What the reference makes and the text never does, where no line of the text repairs anything.
     const bool repairs = !ranked.empty() && lines[ranked.front().second].loudest > repair_of_output;
@@ -198,9 +318,12 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
     if (!repairs && most != missing.end() && most->second.score > 0.3 * static_cast<double>(looked_at)) {
         if (alike == 0) // then what loops of a text compare that is written otherwise differs anywhere
             std::erase_if(found, [&](const WitnessLine& one) { return only_compared.contains(one.where); });
-        found.insert(found.begin(), {fmt::format("{}{}", expected.line_name(most->first), reference_mark),
-                                     reference.line_text(most->first),
-                                     fmt::format("{}, which this text never does", most->second.what)});
+        found.insert(
+            found.begin(),
+            {fmt::format("{}{}", expected.line_name(most->first), reference_mark),
+             line_text(reference.source, most->first),
+             fmt::format("{}, which this text never does{}", most->second.what,
+                         most->second.repairs ? "; with the other answer the reference writes what it does" : "")});
     }
     found.resize(std::min(found.size(), most_lines));
     return found;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gpu/shader_source.hpp"
 #include "reference/text/alignment.hpp"
 #include "reference/text/program.hpp"
 
@@ -32,7 +33,7 @@ struct WitnessedText {
     std::function<text::TracedRun(std::uint32_t invocation, std::span<const text::ForcedRow> forced)> run;
     /// Gives a place the numbers that it has in both texts; nothing: the other text has no such place.
     std::function<std::optional<text::WrittenPlace>(text::WrittenPlace)> common;
-    std::function<std::string(std::uint32_t line)> line_text;
+    const ShaderSource& source; ///< that its lines are in
 };
 
 /// The run of an invocation by places that both texts have. Outputs of one alone lie behind all others, and are none of
@@ -48,8 +49,9 @@ struct ItemWriters {
 /// Looks for the lines of `wrong` that make what it writes differ from what `reference` writes from the same state,
 /// invocation by invocation (reference/text/alignment.hpp). At most three, the likeliest first; none where too little
 /// speaks for any. `items` differ from the reference, `others` do not.
-/// What lies in a file that is none of the user's, by is_own(FILE:LINE), counts as the call's line. Of texts that are
-/// written otherwise, what loops compare says nothing.
+/// What lies in a file that is none of the user's, by is_own(FILE:LINE), counts as the call's line; so does a line of a
+/// function of which one call of several is at fault, or that both texts have word by word. Such lines say less. Of
+/// texts that are written otherwise, what loops compare says nothing.
 std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const WitnessedText& reference,
                                        std::span<const ItemWriters> items, std::span<const ItemWriters> others,
                                        const std::function<bool(std::string_view where)>& is_own,

@@ -70,6 +70,8 @@ std::vector<ComparedWords> compared_words(const text::Program& program, const Ma
     std::vector<ComparedWords> all;
     const auto add = [&](Space space, std::uint32_t number, std::size_t words,
                          const std::vector<std::vector<std::uint32_t>>& by) {
+        if (got[words].size() != expected.words[words].size()) // the text has it not
+            return;
         all.push_back({{space, number, 0}, expected.words[words], got[words], {}, 0, {}});
         if (number < by.size())
             all.back().writers = by[number];

@@ -1,6 +1,7 @@
 #include "reference/text/alignment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -8,6 +9,7 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "reference/model/error.hpp"
 #include "reference/text/program.hpp"
 
 namespace lockstep::text {
@@ -35,6 +37,7 @@ class Seen {
                 break;
             case Kind::comparison:
                 made_of_.insert(made_of(trace, row));
+                answers_[made_of(trace, row)].insert(row.bits);
                 break;
             case Kind::operation:
                 made_of_.insert(made_of(trace, row));
@@ -54,6 +57,11 @@ class Seen {
             return made_of_.contains(made_of(trace, row));
         return values_.contains(row.bits);
     }
+    /// Whether it compared the same numbers, and never with this answer.
+    [[nodiscard]] bool answers_otherwise(const Trace& trace, const TraceRow& row) const {
+        const auto found = answers_.find(made_of(trace, row));
+        return found != answers_.end() && !found->second.contains(row.bits);
+    }
     [[nodiscard]] bool has_value(std::uint32_t bits) const { return values_.contains(bits); }
 
   private:
@@ -69,6 +77,7 @@ class Seen {
 
     std::set<WrittenPlace> places_;
     std::set<std::vector<std::uint32_t>> made_of_;
+    std::map<std::vector<std::uint32_t>, std::set<std::uint32_t>> answers_;
     std::unordered_set<std::uint32_t> values_;
 };
 
@@ -189,13 +198,28 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
     for (const TraceRow& row : right.trace.rows)
         if (row.kind == Kind::load || (row.kind == Kind::operation && !in_wrong.has(right.trace, row)))
             (row.is_real ? reals : whole).push_back(row.bits);
+    const auto repairs = [&](const ForcedRow& forced) {
+        try {
+            return again({&forced, 1}) == right.words;
+        } catch (const Error&) { // a loop without an end, or what is not run apart
+            return false;
+        }
+    };
+    std::set<std::uint32_t> turned_steps;
+    /// With the other answer at this row, or at all from it on.
+    const auto turns_right = [&](std::uint32_t row) {
+        const TraceRow& one = wrong.trace.rows[row];
+        const std::uint32_t answer = one.bits ^ 1U;
+        return repairs({row, answer}) || (turned_steps.insert(one.step).second && repairs({row, answer, one.step}));
+    };
     std::vector<Suspect> all;
     for (const std::uint32_t row : front) {
         const TraceRow& one = wrong.trace.rows[row];
         Suspect suspect{.row = row, .is_output = outputs.contains(row)};
         std::vector<std::uint32_t> values;
         if (one.kind == Kind::comparison) {
-            values = {one.bits ^ 1U};
+            suspect.repairs = turns_right(row);
+            suspect.repaired = one.bits ^ 1U;
         } else {
             values = one.is_real ? reals : whole;
             std::sort(values.begin(), values.end());
@@ -205,18 +229,24 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
             });
             values.resize(std::min(values.size(), most_values));
         }
-        for (const std::uint32_t bits : values) {
-            if (bits == one.bits)
-                continue;
-            const ForcedRow forced{row, bits};
-            if (again({&forced, 1}) == right.words) {
+        for (const std::uint32_t bits : values)
+            if (bits != one.bits && repairs({row, bits})) {
                 suspect.repairs = true;
                 suspect.repaired = bits;
                 break;
             }
-        }
         all.push_back(suspect);
     }
+    // The same comparison, otherwise asked: what repairs tells the mistake from another way to write it.
+    std::vector<std::uint32_t> turned;
+    for (std::uint32_t row = 0; row < wrong.trace.rows.size(); ++row)
+        if (const TraceRow& one = wrong.trace.rows[row];
+            one.kind == Kind::comparison && in_right.answers_otherwise(wrong.trace, one))
+            turned.push_back(row);
+    if (std::ranges::none_of(all, [](const Suspect& one) { return one.repairs && !one.is_output; }))
+        for (const std::uint32_t row : some_of_each_line(wrong.trace, turned, most_rows))
+            if (turns_right(row))
+                all.push_back({.row = row, .repairs = true, .repaired = wrong.trace.rows[row].bits ^ 1U});
     // A right value in the wrong place: the store itself, unless a row before it explains all that is wrong.
     if (std::ranges::none_of(all, [](const Suspect& one) { return one.repairs && !one.is_output; }))
         for (const std::uint32_t row : stores_of_matched(wrong.trace, matched, places))

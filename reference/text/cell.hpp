@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/values.hpp"
 #include "reference/text/invocation.hpp"
+#include "reference/text/word_range.hpp"
 
 namespace lockstep::text {
 
@@ -58,7 +60,8 @@ template <> inline constexpr bool is_traced<TracedValues> = true;
 /// Whether it runs one invocation again and again, and keeps what this writes beside memory, which stays as it is.
 template <class R> inline constexpr bool runs_apart = has_sets<R> || is_traced<R>;
 
-/// One scalar of one invocation. Of bits alone a word is enough; sets have a number of theirs beside it.
+/// One scalar of one invocation. Of bits alone a word is enough; sets have a number of theirs beside it, and words that
+/// come of one's bits may be many.
 template <class R> struct Cell {
     std::uint32_t w = 0;
 
@@ -73,32 +76,49 @@ struct Cell<R> {
     using Terms = std::vector<Interval>;
     typename R::Real x{};
     mutable std::uint32_t w = 0;
-    mutable R* bits_of_x = nullptr;     ///< the reading: the word is that of x, a set until the word is asked for
-    bool is_real = false;               ///< of what was written: which of the two it is
+    mutable std::uint32_t more = 0; ///< of a word that is open: how many more there are after `w`
+    mutable R* chooses = nullptr;   ///< the reading, while the word is open: it is one of these when it is asked for
+    bool is_bits_of_x = false;      ///< the open word is the bits of `x`
+    bool is_real = false;           ///< of what was written: which of the two it is
     std::shared_ptr<const Terms> terms; ///< of a sum without `precise`, whose order is open; null: it is none
 
     [[nodiscard]] const typename R::Real& real() const { return x; }
-    /// Of a number's bits, those of one float of its set, each in a run of its own.
+    [[nodiscard]] bool is_open() const { return chooses != nullptr; }
+    [[nodiscard]] WordRange range() const { return {w, more}; }
+    /// Of an open word one of them, each in a run of its own.
     [[nodiscard]] std::uint32_t word() const {
-        if (bits_of_x != nullptr)
-            w = std::bit_cast<std::uint32_t>(std::exchange(bits_of_x, nullptr)->one_of(x));
+        if (chooses != nullptr)
+            w += std::exchange(chooses, nullptr)->one_of(std::exchange(more, 0));
         return w;
     }
     void set(const typename R::Real& number) {
+        set(w);
         x = number;
-        bits_of_x = nullptr;
-        terms.reset();
     }
     void set(std::uint32_t word) {
         w = word;
-        bits_of_x = nullptr;
+        more = 0;
+        chooses = nullptr;
+        is_bits_of_x = false;
         terms.reset();
     }
+    void set(const WordRange& words, R& reading) {
+        set(words.first);
+        more = words.more;
+        if (more > 0)
+            chooses = &reading;
+    }
+    /// The word stays open where the numbers are many, and of one sign.
     void set_bits_of(const typename R::Real& number, R& reading) {
-        set(number);
-        bits_of_x = &reading;
-        if (const Interval all = number.set(); all.any || all.is_point())
-            static_cast<void>(word());
+        const Interval all = number.set();
+        if (const std::optional<WordRange> words = all.is_point() ? std::nullopt : word_range::bits(all)) {
+            set(*words, reading);
+            x = number;
+            is_bits_of_x = is_open();
+        } else {
+            set(std::bit_cast<std::uint32_t>(reading.one_of(number)));
+            x = number;
+        }
     }
 };
 

@@ -81,6 +81,7 @@ void Decoder::stage_input(const Variable& variable) {
 void Decoder::stage_variables(const Variable& variable, std::vector<StageVariable>& to) {
     const IdInfo& about = module_.ids[variable.id];
     StageVariable of{.name = about.name,
+                     .instance = {},
                      .location = about.location,
                      .builtin = about.builtin,
                      .variable = address_.at(variable.id).place,
@@ -93,8 +94,10 @@ void Decoder::stage_variables(const Variable& variable, std::vector<StageVariabl
         type_id = type(type_id).element;
         of.stride = type(type_id).cells;
     }
-    if (module_.ids[type_id].is_block) // a member's name in GL has the block's, where the block has an instance's
+    if (module_.ids[type_id].is_block) { // a member's name in GL has the block's, where the block has an instance's
+        of.instance = about.name;
         of.name = about.name.empty() ? "" : type(type_id).name;
+    }
     stage_variables(of, type_id, to);
 }
 

@@ -55,6 +55,7 @@ template <class R, int W> class Machine {
         noted_ = &trace;
         forced_ = forced;
         made_by_.assign(cells_.size(), 0);
+        assigned_.assign(p_.output_cells, {});
     }
     /// Of a traced reading whose invocation is one of a group that shares: is called at each barrier, and has memory be
     /// what the others leave there. False: it ends there.
@@ -197,6 +198,7 @@ template <class R, int W> class Machine {
     // Values: machine_operations.hpp and glsl_functions.hpp.
     void operation(const Step& s);
     void integer_operation(const Step& s);
+    bool open_operation(const Step& s) requires has_sets<R>;
     void vector_operation(const Step& s);
     void multiply_matrix(const Step& s);
     void extended(const Step& s);
@@ -258,6 +260,12 @@ template <class R, int W> class Machine {
     std::uint32_t calls_ = 0;                                    ///< TraceRow::calls of what is noted
     std::vector<std::pair<std::uint32_t, std::uint32_t>> moves_; ///< cells and who made what is moved there
     std::vector<std::uint32_t> made_by_, moved_made_by_; ///< of a traced reading, the row of each cell and 1; 0: none
+    /// Of a traced reading, where each cell of an output was set last.
+    struct Assigned {
+        std::uint32_t step = 0, calls = 0;
+        bool is_set = false;
+    };
+    std::vector<Assigned> assigned_;
     std::span<const Site* const> sites_;
     /// All that decides how a watched run goes on, at one of its jumps.
     struct Seen {

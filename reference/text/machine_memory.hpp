@@ -232,8 +232,11 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             const C* const a = cell(s.a + c);
             each([&](Lane l) {
                 if constexpr (has_sets<R>)
-                    if (a[l].bits_of_x != nullptr)
-                        return out[l].set(a[l].real());
+                    if (a[l].is_open()) {
+                        const std::optional<Interval> floats = word_range::floats(a[l].range());
+                        return out[l].set(a[l].is_bits_of_x ? a[l].real()
+                                                            : r.between(floats.value_or(Interval::anything())));
+                    }
                 out[l].set(r.uniform(in_text, std::bit_cast<float>(a[l].word())));
             });
         }

@@ -190,11 +190,33 @@ template <class R, int W> void Machine<R, W>::vector_operation(const Step& s) {
     }
 }
 
+/// Of words that are open: an operation that has a range of words from one, component by component. False: it wants to
+/// know the words.
+template <class R, int W> bool Machine<R, W>::open_operation(const Step& s) requires has_sets<R> {
+    const auto is_open = [&](std::uint32_t first) {
+        return std::any_of(cell(first), cell(first) + s.n, [](const C& c) { return c.is_open(); });
+    };
+    const bool has_two = s.op != spv::OpSNegate && s.op != spv::OpNot;
+    if (!word_range::is_known(s.op) || !(is_open(s.a) || (has_two && is_open(s.b))))
+        return false;
+    for (std::uint32_t c = 0; c < s.n; ++c) {
+        const C a = *cell(s.a + c), b = has_two ? *cell(s.b + c) : C{};
+        std::optional<WordRange> made = word_range::of(s.op, a.range(), b.range());
+        if (!made)
+            made = word_range::of(s.op, {a.word(), 0}, {b.word(), 0});
+        cell(s.out + c)->set(*made, r);
+    }
+    return true;
+}
+
 /// Of integers and truth values. Divisions by 0 give all ones, shifts take their operand's low bits: both are
 /// undefined.
 template <class R, int W> void Machine<R, W>::integer_operation(const Step& s) {
     const auto i = [](std::uint32_t x) { return static_cast<std::int32_t>(x); };
     constexpr std::uint32_t by_zero = 0xffffffffU;
+    if constexpr (has_sets<R>)
+        if (open_operation(s))
+            return;
     switch (s.op) {
     case spv::OpSNegate:
         return word1(s, [](auto a) { return 0U - a; });
@@ -404,10 +426,16 @@ template <class R, int W> void Machine<R, W>::operation(const Step& s) {
         for (std::uint32_t c = 0; c < s.n; ++c) {
             C* const out = cell(s.out + c);
             const C* const a = cell(s.a + c);
-            if (s.op == spv::OpConvertSToF)
-                each([&](Lane l) { out[l].set(r.real(static_cast<std::int32_t>(a[l].word()))); });
-            else
-                each([&](Lane l) { out[l].set(r.real(a[l].word())); });
+            const auto number = [&](std::uint32_t word) {
+                return s.op == spv::OpConvertSToF ? r.real(static_cast<std::int32_t>(word)) : r.real(word);
+            };
+            each([&](Lane l) {
+                if constexpr (has_sets<R>)
+                    if (const WordRange of = a[l].range();
+                        a[l].is_open() && (s.op == spv::OpConvertSToF ? of.is_signed() : of.is_unsigned()))
+                        return out[l].set(r.between(interval::hull(number(of.first).set(), number(of.last()).set())));
+                out[l].set(number(a[l].word()));
+            });
         }
         break;
     case spv::OpIsNan:

@@ -28,10 +28,13 @@ template <class R, int W> void Machine<R, W>::make(const Step& s, Lane l) {
     if constexpr (runs_apart<R>)
         for (const StageVariable& output : p_.stage_outputs)
             for (std::uint32_t c = output.cell; c < output.cell + output.cells; ++c) {
+                if constexpr (is_traced<R>)
+                    if (!assigned_[c].is_set)
+                        continue;
                 C& to = (*written_)[{WrittenPlace::Space::output, 0, c}];
                 to = cell(c)[l];
                 if constexpr (has_sets<R>)
-                    to.is_real = output.is_real || to.bits_of_x != nullptr;
+                    to.is_real = output.is_real || to.is_bits_of_x;
             }
     for (std::uint32_t c = 0; c < p_.output_cells; ++c)
         made_[l].push_back(cell(c)[l]);

@@ -76,6 +76,10 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
         noted.operands.push_back(
             {made_by_[number] == 0 ? TraceOperand::no_row : made_by_[number] - 1, cell(number)->word()});
     };
+    const auto assign = [&](std::uint32_t number) {
+        if (number < p_.output_cells)
+            assigned_[number] = {step, calls_, true};
+    };
     /// A row whose operands have been noted from `first` on.
     const auto note = [&](Kind kind, std::size_t first, std::uint32_t cell, bool is_real,
                           const WrittenPlace& place = {}) {
@@ -83,23 +87,31 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
                              static_cast<std::uint32_t>(noted.operands.size() - first), place, calls_},
                             cell,
                             kind != Kind::store});
+        assign(cell);
     };
-    const auto copied = [&](std::uint32_t out, std::uint32_t from) { moves_.emplace_back(out, made_by_[from]); };
+    const auto copied = [&](std::uint32_t out, std::uint32_t from) {
+        moves_.emplace_back(out, made_by_[from]);
+        assign(out);
+    };
     const auto texel_word = [&](std::uint32_t image, std::uint32_t first, std::uint32_t axes, std::uint32_t c) {
         return first_word(memory_.image(image), texel_place(first, axes, 0)) + c;
     };
     using Space = WrittenPlace::Space;
     switch (s.op) {
-    case code::finish: // the outputs as they are; each where it was made
+    case code::finish: // the outputs as they are; each where it was made, or assigned
         for (const StageVariable& output : p_.stage_outputs)
             for (std::uint32_t c = output.cell; c < output.cell + output.cells; ++c) {
+                const Assigned assigned = assigned_[c];
+                if (!assigned.is_set)
+                    continue;
                 const std::size_t first = noted.operands.size();
                 operand(c);
                 note(Kind::store, first, c, output.is_real, {Space::output, 0, c});
+                TraceRow& row = pending_.back().row;
+                row.step = assigned.step, row.line = p_.lines[assigned.step], row.calls = assigned.calls;
                 if (made_by_[c] == 0)
                     continue;
                 const TraceRow& maker = noted.rows[made_by_[c] - 1];
-                TraceRow& row = pending_.back().row;
                 row.step = maker.step, row.line = maker.line, row.calls = maker.calls;
             }
         return;
@@ -255,8 +267,8 @@ template <class R, int W> void Machine<R, W>::note_results() {
         const auto row = static_cast<std::uint32_t>(noted_->rows.size());
         if (pending.is_result)
             for (const ForcedRow& one : forced_)
-                if (one.row == row)
-                    cell(pending.cell)->set(one.bits);
+                if (one.turned ? row >= one.row && pending.row.step == *one.turned : one.row == row)
+                    cell(pending.cell)->set(one.turned ? cell(pending.cell)->word() ^ 1U : one.bits);
         pending.row.bits = cell(pending.cell)->word();
         if (pending.row.place.space == WrittenPlace::Space::shared) // which has no type here
             pending.row.is_real = pending.row.is_real || tracing::looks_real(pending.row.bits);

@@ -13,6 +13,7 @@
 
 #include "reference/stored_half.hpp"
 #include "reference/subnormals.hpp"
+#include "reference/system/item_twin.hpp"
 #include "reference/text/glsl_functions.hpp"
 #include "reference/text/machine_apart.hpp"
 #include "reference/text/machine_flow.hpp"
@@ -53,7 +54,7 @@ std::string_view kept(std::string label) {
 
 bool is_equal(const InvocationOutcome& a, const InvocationOutcome& b) {
     const auto key = [](const WrittenWord& w) {
-        return std::tuple(w.place, w.is_real || w.is_code ? 0U : w.word, w.set.low, w.set.high, w.set.any);
+        return std::tuple(w.place, w.is_real || w.is_code ? 0U : w.word, w.more, w.set.low, w.set.high, w.set.any);
     };
     return a.undefined == b.undefined &&
            std::ranges::equal(a.written, b.written, [&](const auto& x, const auto& y) { return key(x) == key(y); });
@@ -80,7 +81,16 @@ WrittenWord stored(WrittenWord word, const TexelMemory& image) {
 bool WrittenWord::may_be(std::uint32_t bits) const {
     if (is_code)
         return set.contains(static_cast<float>(bits));
-    return is_real ? set.contains(std::bit_cast<float>(bits)) : word == bits;
+    return is_real ? set.contains(std::bit_cast<float>(bits)) : WordRange{word, more}.contains(bits);
+}
+
+Interval WrittenWord::set_in(Scalar field) const {
+    const std::optional<WordRange> words = is_real ? word_range::bits(set) : WordRange{word, more};
+    if (field == Scalar::float32)
+        return is_real ? set : word_range::floats(*words).value_or(Interval::anything());
+    if (!words || !(field == Scalar::int32 ? words->is_signed() : words->is_unsigned()))
+        return Interval::anything();
+    return interval::hull(item_twin::set_of(words->first, field), item_twin::set_of(words->last(), field));
 }
 
 Outcomes::Outcomes(const Program& program) : program_(program) {
@@ -131,8 +141,8 @@ std::vector<InvocationOutcome> Outcomes::of(const Invocation& invocation, std::a
                     if (place.space == WrittenPlace::Space::shared)
                         continue;
                     const Interval set = cell.is_real ? cell.x.legal() : Interval();
-                    WrittenWord word{place, cell.is_real ? std::bit_cast<std::uint32_t>(set.as_float()) : cell.w, set,
-                                     cell.is_real};
+                    WrittenWord word{place, cell.is_real ? std::bit_cast<std::uint32_t>(set.as_float()) : cell.w,
+                                     cell.is_real ? 0 : cell.more, set, cell.is_real};
                     one.written.push_back(place.space == WrittenPlace::Space::texel
                                               ? stored(std::move(word), bindings.images[place.number])
                                               : std::move(word));

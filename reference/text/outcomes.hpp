@@ -16,10 +16,13 @@ namespace lockstep::text {
 /// A word that an invocation wrote, and what it may legally be.
 struct WrittenWord {
     WrittenPlace place;
-    std::uint32_t word = 0; ///< of an integer; of a float one of the set; of a code 0
+    std::uint32_t word = 0; ///< of an integer the first; of a float one of the set; of a code 0
+    std::uint32_t more = 0; ///< of an integer: how many words after the first it may be as well
     Interval set;           ///< of a float; of a code of an rgba8 image the numbers from 0 to 255 that it may be
     bool is_real = false, is_code = false;
     [[nodiscard]] bool may_be(std::uint32_t bits) const;
+    /// What it may be as a field's number. Of none that is a code.
+    [[nodiscard]] Interval set_in(Scalar field) const;
 };
 
 /// One of the ways an invocation may go.

@@ -130,7 +130,8 @@ struct ImageUniform {
 
 /// An input or output of a vertex, geometry or fragment stage: a variable, or a member of a block or structure.
 struct StageVariable {
-    std::string name; ///< in GL: v_Colour, Block.normal, lights[0].colour, gl_Position
+    std::string name;     ///< in GL: v_Colour, Block.normal, lights[0].colour, gl_Position
+    std::string instance; ///< by which the text calls the block; empty: none
     std::optional<std::uint32_t> location = {};
     std::optional<spv::BuiltIn> builtin = {};
     std::uint32_t variable = 0;        ///< first cell of the variable that it is a member of

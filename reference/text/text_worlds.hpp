@@ -148,6 +148,15 @@ class TextWorlds : public Worlds<PlainArithmetic> {
         const Interval x = a.set(), y = b.set();
         return make({a, b}, [&](const auto&) { return legal_function(f, x, y); });
     }
+    Real between(Interval set) {
+        return make({}, [&](const auto&) { return set; });
+    }
+    /// Which of a word and the `more` after it: of a few, each is a way.
+    std::uint32_t one_of(std::uint32_t more) {
+        if (more > most_floats)
+            end(Undefined::undecided);
+        return static_cast<std::uint32_t>(choose(0, static_cast<int>(more)));
+    }
     /// The float that it is; of a few, each is a way.
     float one_of(Real a) {
         const Interval x = a.set();

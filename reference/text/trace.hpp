@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,9 +54,11 @@ std::vector<std::uint32_t> lines_of(const Program& program, const Trace& trace, 
 /// The number that a word is.
 std::string value_text(std::uint32_t bits, bool is_real);
 
-/// A row that gets other bits than it was made with.
+/// A row that gets other bits than it was made with. `turned`: from this row on each comparison of its step gets the
+/// other answer.
 struct ForcedRow {
     std::uint32_t row = 0, bits = 0;
+    std::optional<std::uint32_t> turned = {}; ///< the step
 };
 
 /// A word that an invocation wrote.

@@ -75,6 +75,7 @@ TEST_CASE("text: each compute stage of collision makes its twin's bits, and the 
             CHECK(row.changed > 0);
             CHECK(row.differing == 0);
             CHECK(row.findings == 0);
+            CHECK(row.refused == "");
         }
     }
 }

@@ -41,9 +41,6 @@ TEST_CASE("text: GLSL ES, also of versions that have no SPIR-V") {
     stage.uniforms["u_By"] = words_of({2.0F});
     stage.inputs["v_Place"] = words_of({0.5F, 3.0F});
     CHECK(floats_of(stage.run(1).outputs.at("colour")) == std::vector{1.0F, 6.0F, 0.0F, 1.0F});
-    CHECK_THAT(
-        refusal(Stage::fragment, "#version 100\nprecision highp float;\nvarying vec2 v_Place;\nvoid main() {}\n"),
-        Catch::Contains("shader stage:3: 'varying'"));
 }
 
 TEST_CASE("text: desktop versions without SPIR-V or compute stages mean the same in 4.60, unless they ask for theirs") {
@@ -128,4 +125,48 @@ TEST_CASE("text: buffers are read as images of one dimension") {
     kernel.run();
     CHECK(floats_of(kernel.blocks["Out"]) == std::vector{3.0F, 23.0F, 0.0F, 0.0F});
     CHECK(floats_of(kernel.images["u_To"].words) == std::vector{4.0F, 8.0F});
+}
+
+TEST_CASE("text: GLSL 1.10, 1.20 and GLSL ES 1.00, and a text that does not say its version") {
+    for (const std::string version : {"#version 100\n", "#version 110\n", "#version 120\n"}) {
+        INFO(version);
+        TextStage stage(Stage::fragment, version + "#ifdef GL_ES\nprecision mediump float;\n#endif\n"
+                                                   "varying vec2 v_Place;\nuniform float u_By;\n"
+                                                   "void main() { gl_FragColor = vec4(v_Place * u_By, 0.0, 1.0); }\n");
+        stage.uniforms["u_By"] = words_of({2.0F});
+        stage.inputs["v_Place"] = words_of({0.5F, 3.0F});
+        CHECK(floats_of(stage.run(1).outputs.at("ls_FragColor")) == std::vector{1.0F, 6.0F, 0.0F, 1.0F});
+    }
+    auto unsaid = std::make_shared<ShaderSource>();
+    unsaid->stage = Stage::fragment;
+    unsaid->text = "varying vec2 v_Place;\nvoid main() { gl_FragColor = v_Place.xyxy; }\n";
+    unsaid->files = {"old.frag"};
+    unsaid->origins.resize(3);
+    CHECK(program_of(unsaid).stage_outputs.front().name == "ls_FragColor");
+    TextStage vertex(Stage::vertex, "#version 120\nattribute vec3 a_Place;\nvarying vec4 v_Colour;\n"
+                                    "void main() {\n    v_Colour = gl_Color + gl_MultiTexCoord0;\n"
+                                    "    gl_Position = ftransform() + vec4(a_Place, 0.0);\n}\n");
+    vertex.uniforms["ls_ModelViewProjectionMatrix"] = words_of({2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1});
+    vertex.inputs["a_Place"] = words_of({10, 20, 30});
+    vertex.inputs["ls_Vertex"] = words_of({1, 2, 3, 1});
+    vertex.inputs["ls_Color"] = words_of({0.5F, 0, 0, 1});
+    vertex.inputs["ls_MultiTexCoord0"] = words_of({1, 2, 0, 0});
+    const text::StageResult made = vertex.run(1);
+    CHECK(floats_of(made.outputs.at("gl_Position")) == std::vector{12.0F, 24.0F, 36.0F, 1.0F});
+    CHECK(floats_of(made.outputs.at("v_Colour")) == std::vector{1.5F, 2.0F, 0.0F, 1.0F});
+    CHECK_THAT(refusal(Stage::fragment, "#version 120\nvarying vec2 v;\nvoid main() {\n    gl_FragColor = w;\n}\n"),
+               Catch::Contains("shader stage:4: 'w' : undeclared identifier"));
+}
+
+TEST_CASE("text: old functions that sample, beside a variable of the later function's name") {
+    for (const std::string name : {"u_Image", "texture"}) {
+        INFO(name);
+        TextStage stage(Stage::fragment, "#version 100\nprecision mediump float;\nuniform sampler2D " + name +
+                                             ";\nvoid main() { gl_FragColor = texture2D(" + name +
+                                             ", vec2(0.75, 0.5)); }\n");
+        text::TexelMemory two;
+        two.size = {2, 1, 1};
+        stage.images[name] = {two, words_of({1, 2, 3, 4, 5, 6, 7, 8})};
+        CHECK(floats_of(stage.run(1).outputs.at("ls_FragColor")) == std::vector{5.0F, 6.0F, 7.0F, 8.0F});
+    }
 }

@@ -116,9 +116,9 @@ std::vector<std::optional<std::size_t>> matched_blocks(const Interfaces& both, c
     match([](const text::Block& a, const text::Block& b) { return a.name == b.name; });
     match([](const text::Block& a, const text::Block& b) { return a.binding && a.binding == b.binding; });
     for (std::size_t e = 0; e < expected.size(); ++e)
-        if (matched[e])
+        if (matched[e] && !by_host) // of one buffer in both, whatever it is declared as
             both.check_block(own[*matched[e]], expected[e]);
-        else if (expected[e].name != block_of_uniforms && !by_host)
+        else if (!matched[e] && expected[e].name != block_of_uniforms && !by_host)
             both.refuse_missing(true, kind_of(expected[e]), expected[e].name);
     for (std::size_t o = 0; o < own.size(); ++o)
         if (!is_taken[o] && own[o].name != block_of_uniforms && !by_host)
@@ -271,9 +271,15 @@ MadeUpWorld world_of_reference(const Examination& of, const MatchedNames& names,
 text::StageRun run_of_reference(const Examination& of, const StageText& reference, const text::StageRun& run) {
     text::StageRun made = run;
     made.inputs = made_up_run(of, reference.program).inputs;
-    for (auto& [name, words] : made.inputs)
-        if (const auto own = run.inputs.find(name); own != run.inputs.end())
-            words = own->second;
+    for (const text::StageVariable& input : reference.program.stage_inputs) {
+        const auto found = made.inputs.find(text::name_of(input));
+        if (found == made.inputs.end())
+            continue;
+        if (const auto own = run.inputs.find(found->first); own != run.inputs.end())
+            found->second = own->second;
+        else if (found->second.size() > input.words()) // made up for whole quads
+            found->second.resize(std::size_t{run.invocations} * input.words());
+    }
     return made;
 }
 

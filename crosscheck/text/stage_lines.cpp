@@ -56,16 +56,23 @@ template <class F> void capture_runs(std::vector<ReadPair>& pairs, const RunStag
     bool looks = false;
     for (ReadPair& pair : pairs)
         pair.runs = 0;
-    const StageCapture watched(
-        {.program = [&](Stage, const std::string& text) -> const text::Program* {
-             const auto pair = pair_of(text);
-             return looks && pair != pairs.end() && pair->lines.empty() && pair->runs++ < most_runs
-                        ? &((*pair).*which).program
-                        : nullptr;
-         },
-         .take = [&](const std::string& text, CapturedStage stage) { f(*pair_of(text), std::move(stage)); },
-         .refuse = [](const std::string&, const std::string&) {}},
-        invocations);
+    const StageCapture watched({.program = [&](Stage, const std::string& text) -> const text::Program* {
+                                    const auto pair = pair_of(text);
+                                    return looks && pair != pairs.end() && pair->lines.empty() && pair->runs < most_runs
+                                               ? &((*pair).*which).program
+                                               : nullptr;
+                                },
+                                .take =
+                                    [&](const std::string& text, CapturedStage stage) {
+                                        if (stage.program->stage != spv::ExecutionModelGLCompute &&
+                                            stage.run.invocations == 0)
+                                            return;
+                                        ReadPair& pair = *pair_of(text);
+                                        ++pair.runs;
+                                        f(pair, std::move(stage));
+                                    },
+                                .refuse = [](const std::string&, const std::string&) {}},
+                               invocations);
     run(which == &ReadPair::reference, [&] { looks = true; });
 }
 

@@ -78,6 +78,20 @@ class BothRuns {
             writers(place.space == Space::block ? run_.writers.blocks : run_.writers.images, place.number);
         return place.word >= by.size() || by[place.word] == 0 ? std::nullopt : std::optional(by[place.word] - 1);
     }
+    /// The same words seen from the text: what it has is expected, and what the reference has was got.
+    [[nodiscard]] std::vector<ComparedWords> turned(std::span<const ComparedWords> all) const {
+        std::vector<ComparedWords> from_text;
+        for (const ComparedWords& one : all) {
+            ComparedWords other = one;
+            other.place = own_place(one.place);
+            std::swap(other.expected, other.got);
+            if (one.place.space != Space::output)
+                other.writers = writers(one.place.space == Space::block ? run_.writers.blocks : run_.writers.images,
+                                        other.place.number);
+            from_text.push_back(other);
+        }
+        return from_text;
+    }
     [[nodiscard]] const MatchedNames& names() const { return names_; }
 
   private:
@@ -269,8 +283,21 @@ TextComparison compare_texts(const Examination& of, const StageText& text, const
     const BoundStage own = stage_of_run(text, world, of, stage),
                      right = stage_of_run(reference, before, of_reference, expected_stage);
     constexpr std::size_t most_judged = 20'000, enough_for_lines = 2'000;
-    const WordComparison compared =
+    WordComparison compared =
         compare_words(right, all, judged_by(reference.program, hosted != nullptr ? enough_for_lines : most_judged));
+    if (hosted != nullptr) { // what the text itself leaves open is no mistake of its
+        const auto key = [](const ComparedWord& word, const text::WrittenPlace& place) {
+            return std::pair(place, place.space == Space::output ? word.invocation : std::nullopt);
+        };
+        const WordComparison by_text = compare_words(own, both.turned(all), judged_by(text.program, enough_for_lines));
+        std::set<std::pair<text::WrittenPlace, std::optional<std::uint32_t>>> mistakes;
+        for (const auto* const words : {&by_text.wrong, &by_text.unjudged})
+            for (const ComparedWord& word : *words)
+                mistakes.insert(key(word, word.place));
+        compared.legal += std::erase_if(compared.wrong, [&](const ComparedWord& word) {
+            return !mistakes.contains(key(word, both.own_place(word.place)));
+        });
+    }
     made.words = compared.words;
     made.differing = compared.differing;
     made.legal = compared.legal;

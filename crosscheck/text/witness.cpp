@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -83,13 +84,15 @@ class OwnLines {
 /// not the function; so it is where both texts have the function's line and not the call's.
 class Calls {
   public:
+    bool prefers_callers = false;
     void come_by(const Chain& chain) { add(all_, chain.lines); }
     void blame(const Chain& chain) { add(blamed_, chain.lines); }
     [[nodiscard]] std::uint32_t line_of(const std::vector<std::uint32_t>& chain,
                                         const std::function<bool(std::uint32_t)>& is_common) const {
         if (const auto own = std::ranges::find_if_not(chain, is_common); own != chain.end() && own != chain.begin())
             return *own;
-        std::size_t at = 0;
+        // A helper of the reference's says less where the text has it not than the line that calls it.
+        std::size_t at = prefers_callers && chain.size() > 2 && blamed_.at(chain.front()).size() == 1 ? 1 : 0;
         while (at + 1 < chain.size() && blamed_.at(chain[at]).size() == 1 && all_.at(chain[at]).size() > 1)
             ++at;
         return chain[at];
@@ -130,8 +133,10 @@ std::map<std::uint32_t, Line> lines_by(const std::vector<Blame>& blames, const C
     std::map<std::uint32_t, Line> lines;
     for (const Blame& one : blames) {
         const std::uint32_t at = calls.line_of(one.chain.lines, is_common);
-        // Of a call of what is not the user's, that both texts have the line says nothing.
-        const double own_weight = (!one.chain.is_called && is_common(at) ? of_common : 1.0) * one.weight;
+        // Of a call of what is not the user's, and of a decision that the text never comes to, that both texts have the
+        // line says nothing.
+        const bool says_less = is_common(at) && !one.chain.is_called && !one.repairs;
+        const double own_weight = (says_less ? of_common : 1.0) * one.weight;
         double& weight = by_item[one.item][at];
         weight = std::max(weight, own_weight);
         Line& line = lines[at];
@@ -152,6 +157,8 @@ std::map<std::uint32_t, Line> lines_by(const std::vector<Blame>& blames, const C
     return lines;
 }
 
+/// That another number, or another place to look at, keeps what is wrong from being written says as little as that the
+/// right output does.
 constexpr double repair = 3.0, repair_of_output = 1.0, no_repair = 0.5;
 
 /// What the reference's run of an item came by, and the text's never: lines of the reference.
@@ -217,7 +224,9 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
     const text::Program &program = wrong.program, &expected = reference.program;
     std::vector<Blame> blames, missing_blames;
     OwnLines own_lines(program, is_own), expected_lines(expected, is_own);
+    const std::set<std::string> texts = lines_in(wrong.source), expected_texts = lines_in(reference.source);
     Calls calls, expected_calls;
+    expected_calls.prefers_callers = true;
     std::size_t looked_at = 0;
     for (const auto& [own, invocation] : items) {
         if (!invocation && !own)
@@ -245,29 +254,45 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
             if (chain.lines.empty())
                 continue;
             calls.blame(chain);
-            is_repaired = is_repaired || (one.repairs && !one.is_output);
+            const bool says_little = one.is_output || (!row.is_real && row.kind != text::TraceRow::Kind::comparison);
+            is_repaired = is_repaired || (one.repairs && !says_little);
             blames.push_back({looked_at, std::move(chain),
-                              one.repairs ? (one.is_output ? repair_of_output : repair) : no_repair,
+                              one.repairs ? (says_little ? repair_of_output : repair) : no_repair,
                               what_of(run.trace, one), !one.repairs && row.kind == text::TraceRow::Kind::comparison});
         }
         std::vector<Blame> missed = missing_of(right, run, looked_at, expected_lines);
-        // A comparison that the text leaves out: with its other answer the reference does what the text does.
-        if (!is_repaired)
-            for (const text::Suspect& one : text::suspects_of(right, run, [&](std::span<const text::ForcedRow> forced) {
-                     return common_run(reference, expected_number, forced).words;
-                 })) {
+        // A comparison that the text leaves out: with its other answer the reference does what the text does. Of
+        // several that each do, none is known to be the one, unless the text has the others' lines.
+        if (!is_repaired) {
+            std::vector<Blame> turned;
+            for (const text::Suspect& one : text::suspects_of(
+                     right, run,
+                     [&](std::span<const text::ForcedRow> forced) {
+                         return common_run(reference, expected_number, forced).words;
+                     },
+                     true)) {
                 const text::TraceRow& row = right.trace.rows[one.row];
                 Chain chain = expected_lines.chain(right.trace, row);
                 if (one.repairs && row.kind == text::TraceRow::Kind::comparison && !chain.lines.empty())
-                    missed.push_back({looked_at, std::move(chain), repair, compared(right.trace, row), false, true});
+                    turned.push_back({looked_at, std::move(chain), repair, compared(right.trace, row), false, true});
             }
+            const auto are_one = [&] {
+                return std::ranges::all_of(
+                    turned, [&](const Blame& one) { return one.chain.lines == turned.front().chain.lines; });
+            };
+            if (!are_one())
+                std::erase_if(turned, [&](const Blame& one) {
+                    return texts.contains(line_text(reference.source, one.chain.lines.front()));
+                });
+            if (are_one())
+                std::ranges::move(turned, std::back_inserter(missed));
+        }
         for (Blame& one : missed) {
             expected_calls.blame(one.chain);
             missing_blames.push_back(std::move(one));
         }
         ++looked_at;
     }
-    const std::set<std::string> texts = lines_in(wrong.source), expected_texts = lines_in(reference.source);
     std::map<std::uint32_t, Line> lines = lines_by(
         blames, calls, [&](std::uint32_t line) { return expected_texts.contains(line_text(wrong.source, line)); });
     const std::map<std::uint32_t, Line> missing = lines_by(missing_blames, expected_calls, [&](std::uint32_t line) {

@@ -105,9 +105,9 @@ std::set<WrittenPlace> places_that_differ(const std::vector<TracedWord>& a, cons
     return differ;
 }
 
-/// Rows without a counterpart that lead to some of `places`, or to a decision, and whose operands all have one.
+/// Rows without a counterpart that lead to some of `places`, or `to_decisions`, and whose operands all have one.
 std::vector<std::uint32_t> front_of(const Trace& trace, const std::vector<bool>& matched,
-                                    const std::set<WrittenPlace>& places) {
+                                    const std::set<WrittenPlace>& places, bool to_decisions = true) {
     std::vector<std::uint32_t> open, front;
     std::vector<bool> seen(trace.rows.size());
     const auto visit = [&](std::uint32_t row) {
@@ -118,7 +118,7 @@ std::vector<std::uint32_t> front_of(const Trace& trace, const std::vector<bool>&
     };
     for (std::uint32_t row = 0; row < trace.rows.size(); ++row) {
         const TraceRow& one = trace.rows[row];
-        if (one.kind == Kind::comparison)
+        if (one.kind == Kind::comparison && to_decisions)
             visit(row);
         if (one.kind == Kind::store && places.contains(one.place))
             for (const TraceOperand& operand : trace.of(one))
@@ -182,7 +182,8 @@ double distance(std::uint32_t a, std::uint32_t b) {
 } // namespace
 
 std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
-                                 const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again) {
+                                 const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again,
+                                 bool turns_all) {
     constexpr std::size_t most_rows = 24, most_values = 32;
     const Seen in_right(right.trace), in_wrong(wrong.trace);
     const std::set<WrittenPlace> places = places_that_differ(wrong.words, right.words);
@@ -237,13 +238,15 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
             }
         all.push_back(suspect);
     }
-    // The same comparison, otherwise asked: what repairs tells the mistake from another way to write it.
+    // The same comparison, otherwise asked, and those of what the right run never came by: what repairs tells the
+    // mistake from another way to write it.
     std::vector<std::uint32_t> turned;
     for (std::uint32_t row = 0; row < wrong.trace.rows.size(); ++row)
         if (const TraceRow& one = wrong.trace.rows[row];
-            one.kind == Kind::comparison && in_right.answers_otherwise(wrong.trace, one))
+            one.kind == Kind::comparison && (in_right.answers_otherwise(wrong.trace, one) ||
+                                             (!matched[row] && !std::ranges::binary_search(front, row))))
             turned.push_back(row);
-    if (std::ranges::none_of(all, [](const Suspect& one) { return one.repairs && !one.is_output; }))
+    if (turns_all || std::ranges::none_of(all, [](const Suspect& one) { return one.repairs && !one.is_output; }))
         for (const std::uint32_t row : some_of_each_line(wrong.trace, turned, most_rows))
             if (turns_right(row))
                 all.push_back({.row = row, .repairs = true, .repaired = wrong.trace.rows[row].bits ^ 1U});
@@ -257,7 +260,9 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
 std::vector<std::uint32_t> missing_rows(const TracedRun& right, const TracedRun& wrong) {
     const std::vector<bool> matched = matched_in(right.trace, Seen(wrong.trace));
     std::set<WrittenPlace> places = places_that_differ(right.words, wrong.words);
-    std::vector<std::uint32_t> rows = front_of(right.trace, matched, places);
+    // What leads to decisions alone differs with the way a text is written; where nothing is written it is all there
+    // is.
+    std::vector<std::uint32_t> rows = front_of(right.trace, matched, places, right.words.empty());
     for (const TracedWord& word : wrong.words)
         places.erase(word.place);
     // What is stored of a value that both have: the store itself.

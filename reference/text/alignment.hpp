@@ -30,8 +30,10 @@ struct Suspect {
 /// the same operands. From the words that are wrong, and from comparisons without a counterpart, it goes back through
 /// rows without one; where all operands have one, the row is a suspect. Then each suspect gets the values that the
 /// right run came by and the wrong one never did.
+/// `turns_all`: comparisons without a counterpart are turned whatever else repairs.
 std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
-                                 const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again);
+                                 const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again,
+                                 bool turns_all = false);
 
 /// Rows of the right run that what it writes rests on and that have no counterpart in the wrong one, though all that
 /// they were made of has: what the wrong text never computes.

@@ -89,7 +89,8 @@ class Calls {
     void blame(const Chain& chain) { add(blamed_, chain.lines); }
     [[nodiscard]] std::uint32_t line_of(const std::vector<std::uint32_t>& chain,
                                         const std::function<bool(std::uint32_t)>& is_common) const {
-        if (const auto own = std::ranges::find_if_not(chain, is_common); own != chain.end() && own != chain.begin())
+        if (const auto own = std::ranges::find_if_not(chain, is_common);
+            own != chain.end() && std::ranges::any_of(chain, is_common))
             return *own;
         // A helper of the reference's says less where the text has it not than the line that calls it.
         std::size_t at = prefers_callers && chain.size() > 2 && blamed_.at(chain.front()).size() == 1 ? 1 : 0;

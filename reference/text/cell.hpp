@@ -78,12 +78,13 @@ struct Cell<R> {
     mutable std::uint32_t w = 0;
     mutable std::uint32_t more = 0; ///< of a word that is open: how many more there are after `w`
     mutable R* chooses = nullptr;   ///< the reading, while the word is open: it is one of these when it is asked for
-    bool is_bits_of_x = false;      ///< the open word is the bits of `x`
+    bool comes_of_x = false;        ///< an open word is the bits of `x`
     bool is_real = false;           ///< of what was written: which of the two it is
     std::shared_ptr<const Terms> terms; ///< of a sum without `precise`, whose order is open; null: it is none
 
     [[nodiscard]] const typename R::Real& real() const { return x; }
     [[nodiscard]] bool is_open() const { return chooses != nullptr; }
+    [[nodiscard]] bool is_bits_of_x() const { return is_open() && comes_of_x; }
     [[nodiscard]] WordRange range() const { return {w, more}; }
     /// Of an open word one of them, each in a run of its own.
     [[nodiscard]] std::uint32_t word() const {
@@ -99,7 +100,7 @@ struct Cell<R> {
         w = word;
         more = 0;
         chooses = nullptr;
-        is_bits_of_x = false;
+        comes_of_x = false;
         terms.reset();
     }
     void set(const WordRange& words, R& reading) {
@@ -114,7 +115,7 @@ struct Cell<R> {
         if (const std::optional<WordRange> words = all.is_point() ? std::nullopt : word_range::bits(all)) {
             set(*words, reading);
             x = number;
-            is_bits_of_x = is_open();
+            comes_of_x = true;
         } else {
             set(std::bit_cast<std::uint32_t>(reading.one_of(number)));
             x = number;

@@ -41,7 +41,7 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
         C& to = (*written_)[place];
         to = value;
         if constexpr (has_sets<R>)
-            to.is_real = is_real || value.is_bits_of_x;
+            to.is_real = is_real || value.is_bits_of_x();
     };
     const auto change = [&](const WrittenPlace& place, Space stored) {
         if (found({stored, place.number, place.word}) != nullptr)

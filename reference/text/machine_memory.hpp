@@ -234,8 +234,8 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
                 if constexpr (has_sets<R>)
                     if (a[l].is_open()) {
                         const std::optional<Interval> floats = word_range::floats(a[l].range());
-                        return out[l].set(a[l].is_bits_of_x ? a[l].real()
-                                                            : r.between(floats.value_or(Interval::anything())));
+                        return out[l].set(a[l].is_bits_of_x() ? a[l].real()
+                                                              : r.between(floats.value_or(Interval::anything())));
                     }
                 out[l].set(r.uniform(in_text, std::bit_cast<float>(a[l].word())));
             });

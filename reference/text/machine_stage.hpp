@@ -34,7 +34,7 @@ template <class R, int W> void Machine<R, W>::make(const Step& s, Lane l) {
                 C& to = (*written_)[{WrittenPlace::Space::output, 0, c}];
                 to = cell(c)[l];
                 if constexpr (has_sets<R>)
-                    to.is_real = output.is_real || to.is_bits_of_x;
+                    to.is_real = output.is_real || to.is_bits_of_x();
             }
     for (std::uint32_t c = 0; c < p_.output_cells; ++c)
         made_[l].push_back(cell(c)[l]);

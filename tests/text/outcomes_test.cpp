@@ -392,3 +392,14 @@ TEST_CASE("text outcomes: an open integer that is written may be each of its wor
     CHECK(word.set_in(Scalar::int32).high == last + 1.0);
     CHECK(word.set_in(Scalar::float32).contains(std::bit_cast<float>(first + 1)));
 }
+
+TEST_CASE("text outcomes: an open float's bits that an operation has chosen are written as they were chosen") {
+    const auto found = outcomes("uint b = floatBitsToUint(inversesqrt(x[1]));\n"
+                                "x[0] = float(bitCount(b));\ny[0] = b;",
+                                {0, 0.7F}, {}, "layout(std430, binding = 1) buffer Y { uint y[]; };");
+    REQUIRE(found.size() > 1);
+    for (const text::InvocationOutcome& one : found)
+        for (const text::WrittenWord& word : one.written) {
+            CHECK((word.is_real ? word.set.is_point() : word.more == 0));
+        }
+}

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "gpu/glsl_type.hpp"
+#include "gpu/uniform_words.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -26,7 +29,25 @@ std::vector<std::uint32_t> words_of_buffer(GLenum target, GLenum start_name, GLe
     return words;
 }
 
-void copy_uniform(GLuint from, GLuint to, std::string name, GLint size, GLenum kind) {
+using UniformValue = std::array<std::uint32_t, 16>; ///< as much as a mat4 has
+
+UniformValue value_at(GLuint program, GLint location, bool is_real) {
+    UniformValue value{};
+    if (is_real)
+        gl::GetUniformfv(program, location, reinterpret_cast<GLfloat*>(value.data()));
+    else
+        gl::GetUniformiv(program, location, reinterpret_cast<GLint*>(value.data()));
+    return value;
+}
+
+std::size_t components_of(GLenum type) {
+    if (type >= GL_BOOL && type <= GL_BOOL_VEC4)
+        return type - GL_BOOL + 1;
+    return static_cast<std::size_t>(std::max(output_components(type), 1));
+}
+
+/// `to` is in use.
+void copy_uniform(GLuint from, GLuint to, std::string name, GLint size, GLenum type) {
     if (name.ends_with("[0]"))
         name.resize(name.size() - 3);
     for (GLint i = 0; i < size; ++i) {
@@ -34,71 +55,9 @@ void copy_uniform(GLuint from, GLuint to, std::string name, GLint size, GLenum k
         const GLint source = gl::GetUniformLocation(from, one.c_str()), at = gl::GetUniformLocation(to, one.c_str());
         if (source < 0 || at < 0)
             continue;
-        std::array<GLfloat, 16> reals{};
-        std::array<GLint, 16> numbers{};
-        const auto* const unsigned_numbers = reinterpret_cast<const GLuint*>(numbers.data());
-        switch (kind) {
-        case GL_FLOAT:
-        case GL_FLOAT_VEC2:
-        case GL_FLOAT_VEC3:
-        case GL_FLOAT_VEC4:
-        case GL_FLOAT_MAT2:
-        case GL_FLOAT_MAT3:
-        case GL_FLOAT_MAT4:
-            gl::GetUniformfv(from, source, reals.data());
-            break;
-        default:
-            gl::GetUniformiv(from, source, numbers.data());
-        }
-        switch (kind) {
-        case GL_FLOAT:
-            gl::Uniform1fv(at, 1, reals.data());
-            break;
-        case GL_FLOAT_VEC2:
-            gl::Uniform2fv(at, 1, reals.data());
-            break;
-        case GL_FLOAT_VEC3:
-            gl::Uniform3fv(at, 1, reals.data());
-            break;
-        case GL_FLOAT_VEC4:
-            gl::Uniform4fv(at, 1, reals.data());
-            break;
-        case GL_FLOAT_MAT2:
-            gl::UniformMatrix2fv(at, 1, GL_FALSE, reals.data());
-            break;
-        case GL_FLOAT_MAT3:
-            gl::UniformMatrix3fv(at, 1, GL_FALSE, reals.data());
-            break;
-        case GL_FLOAT_MAT4:
-            gl::UniformMatrix4fv(at, 1, GL_FALSE, reals.data());
-            break;
-        case GL_BOOL_VEC2:
-        case GL_INT_VEC2:
-            gl::Uniform2iv(at, 1, numbers.data());
-            break;
-        case GL_UNSIGNED_INT:
-            gl::Uniform1uiv(at, 1, unsigned_numbers);
-            break;
-        case GL_UNSIGNED_INT_VEC2:
-            gl::Uniform2uiv(at, 1, unsigned_numbers);
-            break;
-        case GL_UNSIGNED_INT_VEC3:
-            gl::Uniform3uiv(at, 1, unsigned_numbers);
-            break;
-        case GL_UNSIGNED_INT_VEC4:
-            gl::Uniform4uiv(at, 1, unsigned_numbers);
-            break;
-        case GL_BOOL_VEC4:
-        case GL_INT_VEC4:
-            gl::Uniform4iv(at, 1, numbers.data());
-            break;
-        case GL_BOOL_VEC3:
-        case GL_INT_VEC3:
-            gl::Uniform3iv(at, 1, numbers.data());
-            break;
-        default: // int, bool, samplers
-            gl::Uniform1i(at, numbers[0]);
-        }
+        const UniformValue value = value_at(from, source, is_float_type(type));
+        if (!set_uniform_words(at, type, std::span(value).first(components_of(type)))) // of a sampler, its unit
+            gl::Uniform1i(at, static_cast<GLint>(value[0]));
     }
 }
 
@@ -129,11 +88,7 @@ std::vector<std::uint32_t> words_of_uniform(GLuint program, const text::PlainUni
     std::vector<std::uint32_t> words(uniform.cells);
     const auto location_of = [&](const std::string& name) { return gl::GetUniformLocation(program, name.c_str()); };
     const auto read = [&](GLint location, std::size_t first) {
-        std::array<std::uint32_t, 16> value{};
-        if (uniform.is_real)
-            gl::GetUniformfv(program, location, reinterpret_cast<GLfloat*>(value.data()));
-        else
-            gl::GetUniformiv(program, location, reinterpret_cast<GLint*>(value.data()));
+        const UniformValue value = value_at(program, location, uniform.is_real);
         std::copy_n(value.begin(), std::min(value.size(), words.size() - first),
                     words.begin() + static_cast<std::ptrdiff_t>(first));
     };

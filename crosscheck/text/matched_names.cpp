@@ -32,24 +32,29 @@ std::string numbers(std::size_t count, bool is_real) {
     return fmt::format("{} {}{}", count, number_name(is_real), count == 1 ? "" : "s");
 }
 
-/// Two texts whose interfaces have to be one.
+/// Two texts whose interfaces have to be one; by a host, as far as both have them.
 class Interfaces {
   public:
-    Interfaces(const StageText& text, const StageText& reference) : text_(text), reference_(reference) {}
+    Interfaces(const StageText& text, const StageText& reference, bool by_host)
+        : text_(text), reference_(reference), by_host_(by_host) {}
+    [[nodiscard]] bool by_host() const { return by_host_; }
 
     /// Of `found` in the text, what the reference has is expected.
     [[noreturn]] void refuse(std::string_view found, std::string_view expected) const {
         throw Error(fmt::format("{}: {}; expected {}, as {} has", text_.file, found, expected, reference_.file));
     }
-    void check_stage(bool by_host) const {
+    void check_stage() const {
         const text::Program &a = text_.program, &b = reference_.program;
         if (a.stage != b.stage)
             refuse(fmt::format("a {} stage", stage_name(a.stage)), fmt::format("a {} stage", stage_name(b.stage)));
-        if (a.group != b.group && !by_host)
+        if (a.group != b.group && !by_host_)
             refuse(fmt::format("local_size {}", fmt::join(a.group, ", ")),
                    fmt::format("local_size {}", fmt::join(b.group, ", ")));
     }
+    /// By a host they are one buffer, whatever it is declared as.
     void check_block(const text::Block& own, const text::Block& expected) const {
+        if (by_host_)
+            return;
         const std::string name = fmt::format("{} {}", kind_of(own), own.name);
         if (own.array_stride != expected.array_stride || own.array_offset != expected.array_offset)
             refuse(fmt::format("{}: {}", name, array_of(own)), array_of(expected));
@@ -74,7 +79,9 @@ class Interfaces {
                    numbers(expected.cells, expected.is_real));
     }
     /// One of the texts lacks what the other has.
-    [[noreturn]] void refuse_missing(bool is_in_reference, std::string_view kind, std::string_view name) const {
+    void refuse_missing(bool is_in_reference, std::string_view kind, std::string_view name) const {
+        if (by_host_)
+            return;
         const auto [with, without] = is_in_reference ? std::pair(&reference_, &text_) : std::pair(&text_, &reference_);
         throw Error(
             fmt::format("{}: no {} {}; expected one of this name, as {} has", without->file, kind, name, with->file));
@@ -99,10 +106,11 @@ class Interfaces {
 
     const StageText& text_;
     const StageText& reference_;
+    bool by_host_;
 };
 
 std::vector<std::optional<std::size_t>> matched_blocks(const Interfaces& both, const std::vector<text::Block>& own,
-                                                       const std::vector<text::Block>& expected, bool by_host) {
+                                                       const std::vector<text::Block>& expected) {
     std::vector<std::optional<std::size_t>> matched(expected.size());
     std::vector<bool> is_taken(own.size());
     const auto match = [&](const auto& are_alike) {
@@ -116,19 +124,19 @@ std::vector<std::optional<std::size_t>> matched_blocks(const Interfaces& both, c
     match([](const text::Block& a, const text::Block& b) { return a.name == b.name; });
     match([](const text::Block& a, const text::Block& b) { return a.binding && a.binding == b.binding; });
     for (std::size_t e = 0; e < expected.size(); ++e)
-        if (matched[e] && !by_host) // of one buffer in both, whatever it is declared as
+        if (matched[e])
             both.check_block(own[*matched[e]], expected[e]);
-        else if (!matched[e] && expected[e].name != block_of_uniforms && !by_host)
+        else if (expected[e].name != block_of_uniforms)
             both.refuse_missing(true, kind_of(expected[e]), expected[e].name);
     for (std::size_t o = 0; o < own.size(); ++o)
-        if (!is_taken[o] && own[o].name != block_of_uniforms && !by_host)
+        if (!is_taken[o] && own[o].name != block_of_uniforms)
             both.refuse_missing(false, kind_of(own[o]), own[o].name);
     const auto are_one = [](const text::Block& a, const text::Block& b) {
         return a.binding && a.binding == b.binding && a.is_storage == b.is_storage;
     };
     for (std::size_t a = 0; a < expected.size(); ++a)
         for (std::size_t b = 0; b < a; ++b)
-            if (matched[a] && matched[b] && !by_host &&
+            if (matched[a] && matched[b] && !both.by_host() &&
                 are_one(expected[a], expected[b]) != are_one(own[*matched[a]], own[*matched[b]]))
                 both.refuse(fmt::format("blocks {} and {} {} one buffer", own[*matched[b]].name, own[*matched[a]].name,
                                         are_one(expected[a], expected[b]) ? "are not" : "are"),
@@ -164,9 +172,9 @@ std::vector<std::optional<std::size_t>> matched_by_name(const std::vector<Variab
 } // namespace
 
 MatchedNames matched_names(const Examination& of, const StageText& text, const StageText& reference, bool by_host) {
-    const Interfaces both(text, reference);
+    const Interfaces both(text, reference, by_host);
     const text::Program &own = text.program, &expected = reference.program;
-    both.check_stage(by_host);
+    both.check_stage();
     const auto name = [](const auto& one) { return one.name; };
     const auto name_or_location = [](const text::StageVariable& one) { return text::name_of(one); };
     const auto name_of_output = [&](const text::StageVariable& one) {
@@ -175,27 +183,24 @@ MatchedNames matched_names(const Examination& of, const StageText& text, const S
         return !by_host || one.builtin || prefix == std::string::npos ? whole.substr(by_host ? part : 0)
                                                                       : whole.substr(prefix + 1);
     };
-    const auto missing = [&](bool is_in_reference, std::string_view kind, const std::string& one) {
-        if (!by_host)
-            both.refuse_missing(is_in_reference, kind, one);
-    };
-    MatchedNames names{
-        .blocks = matched_blocks(both, own.blocks, expected.blocks, by_host), .images = {}, .outputs = {}};
+    MatchedNames names{.blocks = matched_blocks(both, own.blocks, expected.blocks), .images = {}, .outputs = {}};
     names.images = matched_by_name(
         own.images, expected.images, name, [&](const auto& a, const auto& b) { both.check_image(a, b); },
-        [&](bool is_in_reference, const text::ImageUniform& one) { missing(is_in_reference, kind_of(one), one.name); });
+        [&](bool is_in_reference, const text::ImageUniform& one) {
+            both.refuse_missing(is_in_reference, kind_of(one), one.name);
+        });
     names.outputs = matched_by_name(
         own.stage_outputs, expected.stage_outputs, name_of_output,
         [&](const auto& a, const auto& b) { both.check_variable("output", a, b); },
         [&](bool is_in_reference, const text::StageVariable& one) {
-            missing(is_in_reference, "output", text::name_of(one));
+            both.refuse_missing(is_in_reference, "output", text::name_of(one));
         });
     matched_by_name(
         own.stage_inputs, expected.stage_inputs, name_or_location,
         [&](const auto& a, const auto& b) { both.check_variable("input", a, b); },
         [&](bool is_in_reference, const text::StageVariable& one) {
             if (one.is_read && !one.builtin)
-                missing(is_in_reference, "input", text::name_of(one));
+                both.refuse_missing(is_in_reference, "input", text::name_of(one));
         });
     matched_by_name(
         own.uniforms, expected.uniforms, name,

@@ -1,13 +1,14 @@
 #include "crosscheck/text/stage_capture.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "crosscheck/text/bound_words.hpp"
 #include "crosscheck/text/keeping_text.hpp"
+#include "gpu/object.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -40,56 +41,76 @@ void compile(GLuint program, GLenum type, const std::string& text) {
         throw Error(fmt::format("the text that keeps invocations does not compile: {}", log.data()));
 }
 
-/// A program of the stages up to `type`, whose text keeps its invocations. Throws Error where GL does not take it.
-GLuint keeping_program(std::map<GLenum, std::string> texts, GLenum type, std::string text) {
-    const GLuint from = current_program(), made = gl::CreateProgram();
-    texts[type] = std::move(text);
-    for (const auto& [stage, source] : texts)
-        if ((type != GL_VERTEX_SHADER || stage == type) && (type != GL_GEOMETRY_SHADER || stage != GL_FRAGMENT_SHADER))
-            compile(made, stage, source);
-    GLint count = 0, size = 0, is_linked = 0;
-    GLenum kind = 0;
-    std::array<char, 256> name{};
-    gl::GetProgramiv(from, GL_ACTIVE_ATTRIBUTES, &count);
-    for (GLint i = 0; i < count; ++i) {
-        gl::GetActiveAttrib(from, static_cast<GLuint>(i), name.size(), nullptr, &size, &kind, name.data());
-        if (const GLint location = gl::GetAttribLocation(from, name.data()); location >= 0)
-            gl::BindAttribLocation(made, static_cast<GLuint>(location), name.data());
+/// A program of the stages up to `type`, whose text keeps its invocations; it is in use while it lives, with what the
+/// one before has bound.
+class KeepingProgram {
+  public:
+    /// Throws Error where GL does not take it.
+    KeepingProgram(std::map<GLenum, std::string> texts, GLenum type, std::string text) : before_(current_program()) {
+        texts[type] = std::move(text);
+        try {
+            make(texts, type);
+        } catch (const Error&) {
+            gl::DeleteProgram(id_);
+            throw;
+        }
+        gl::UseProgram(id_);
+        copy_bindings(before_, id_, records_binding());
     }
-    gl::LinkProgram(made);
-    gl::GetProgramiv(made, GL_LINK_STATUS, &is_linked);
-    if (is_linked == 0) {
-        std::array<char, 2048> log{};
-        gl::GetProgramInfoLog(made, log.size(), nullptr, log.data());
-        gl::DeleteProgram(made);
-        throw Error(fmt::format("the text that keeps invocations does not link: {}", log.data()));
+    ~KeepingProgram() {
+        gl::UseProgram(before_);
+        gl::DeleteProgram(id_);
     }
-    gl::UseProgram(made);
-    copy_bindings(from, made, records_binding());
-    return made;
-}
+    KeepingProgram(const KeepingProgram&) = delete;
+    KeepingProgram& operator=(const KeepingProgram&) = delete;
+
+  private:
+    void make(const std::map<GLenum, std::string>& texts, GLenum type) const {
+        for (const auto& [stage, source] : texts)
+            if ((type != GL_VERTEX_SHADER || stage == type) &&
+                (type != GL_GEOMETRY_SHADER || stage != GL_FRAGMENT_SHADER))
+                compile(id_, stage, source);
+        GLint count = 0, size = 0, is_linked = 0;
+        GLenum kind = 0;
+        std::array<char, 256> name{};
+        gl::GetProgramiv(before_, GL_ACTIVE_ATTRIBUTES, &count);
+        for (GLint i = 0; i < count; ++i) {
+            gl::GetActiveAttrib(before_, static_cast<GLuint>(i), name.size(), nullptr, &size, &kind, name.data());
+            if (const GLint location = gl::GetAttribLocation(before_, name.data()); location >= 0)
+                gl::BindAttribLocation(id_, static_cast<GLuint>(location), name.data());
+        }
+        gl::LinkProgram(id_);
+        gl::GetProgramiv(id_, GL_LINK_STATUS, &is_linked);
+        if (is_linked == 0) {
+            std::array<char, 2048> log{};
+            gl::GetProgramInfoLog(id_, log.size(), nullptr, log.data());
+            throw Error(fmt::format("the text that keeps invocations does not link: {}", log.data()));
+        }
+    }
+
+    GLuint before_;
+    GLuint id_ = gl::CreateProgram();
+};
 
 /// A buffer of so many words, bound for the records while it lives.
 class KeptRecords {
   public:
     explicit KeptRecords(std::size_t words) : words_(words) {
-        gl::GenBuffers(1, &buffer_);
-        gl::BindBuffer(GL_COPY_WRITE_BUFFER, buffer_);
+        gl::BindBuffer(GL_COPY_WRITE_BUFFER, buffer_.id());
         gl::BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(words * sizeof words_[0]), words_.data(),
                        GL_DYNAMIC_COPY);
         gl::GetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &before_);
-        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, records_binding(), buffer_);
+        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, records_binding(), buffer_.id());
     }
     ~KeptRecords() {
         gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, records_binding(), 0);
         gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(before_));
-        gl::DeleteBuffers(1, &buffer_);
     }
     KeptRecords(const KeptRecords&) = delete;
     KeptRecords& operator=(const KeptRecords&) = delete;
-    [[nodiscard]] std::vector<std::uint32_t> read() {
+    [[nodiscard]] const std::vector<std::uint32_t>& read() {
         gl::MemoryBarrier(GL_ALL_BARRIER_BITS);
-        gl::BindBuffer(GL_COPY_WRITE_BUFFER, buffer_);
+        gl::BindBuffer(GL_COPY_WRITE_BUFFER, buffer_.id());
         gl::GetBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(words_.size() * sizeof words_[0]),
                              words_.data());
         return words_;
@@ -97,7 +118,7 @@ class KeptRecords {
 
   private:
     std::vector<std::uint32_t> words_;
-    GLuint buffer_ = 0;
+    GlBuffer buffer_;
     GLint before_ = 0;
 };
 
@@ -275,19 +296,15 @@ CapturedStage StageCapture::drawn(GLenum type, const text::Program& program, con
     const InvocationRecord record(program);
     CapturedStage stage = bound(program);
     const std::size_t most = std::min(most_, most_words / record.words());
-    const GLuint from = current_program(),
-                 keeper = keeping_program(texts, type, keeping_text(record, texts.at(type), most));
-    std::vector<std::uint32_t> words;
+    const KeepingProgram keeper(texts, type, keeping_text(record, texts.at(type), most));
+    KeptRecords kept(1 + most * record.words());
     {
-        KeptRecords kept(1 + most * record.words());
         const WithoutTargets without(type != GL_FRAGMENT_SHADER);
         real();
-        words = kept.read();
     }
-    gl::UseProgram(from);
-    gl::DeleteProgram(keeper);
-    const std::span<const std::uint32_t> records =
-        std::span(words).subspan(1, std::min<std::size_t>(words[0], most) * record.words());
+    const std::span<const std::uint32_t> words = kept.read(),
+                                         records =
+                                             words.subspan(1, std::min<std::size_t>(words[0], most) * record.words());
     stage.run = run_of(record, records);
     stage.made = result_of(record, records);
     return stage;

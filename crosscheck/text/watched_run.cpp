@@ -17,7 +17,8 @@ bool is_endless(const text::Findings& findings) { return std::ranges::any_of(fin
 
 WatchedRun run_watched(const Examination& of, const text::Program& program, MadeUpWorld world,
                        const text::StageRun& stage) {
-    MadeUpWorld again = world.copy();
+    const bool runs_again = of.is_watched && program.stage == spv::ExecutionModelGLCompute;
+    MadeUpWorld again = runs_again ? world.copy() : MadeUpWorld();
     WatchedRun run{.world = std::move(world), .writers = {}, .outputs = {}, .findings = {}};
     if (program.stage != spv::ExecutionModelGLCompute) {
         run.outputs = text::run_stage(program, stage, run.world.bindings, examined_profile(), run.findings);
@@ -29,7 +30,7 @@ WatchedRun run_watched(const Examination& of, const text::Program& program, Made
                             .subgroup_size = of.subgroup_size,
                             .writers = of.reference.empty() ? nullptr : &run.writers};
     if (!text::run_dispatch(program, dispatch, run.world.bindings, examined_profile(), run.findings) ||
-        is_endless(run.findings) || !of.is_watched)
+        is_endless(run.findings) || !runs_again)
         return run;
     // Groups that wait for earlier ones find what they wait for, since these run first: run the other way round, they
     // do not.

@@ -158,8 +158,7 @@ std::map<std::uint32_t, Line> lines_by(const std::vector<Blame>& blames, const C
     return lines;
 }
 
-/// That another number, or another place to look at, keeps what is wrong from being written says as little as that the
-/// right output does.
+/// That another integer keeps what is wrong from being written says as little as that the right output does.
 constexpr double repair = 3.0, repair_of_output = 1.0, no_repair = 0.5;
 
 /// What the reference's run of an item came by, and the text's never: lines of the reference.
@@ -186,6 +185,28 @@ std::vector<Blame> missing_of(const text::TracedRun& right, const text::TracedRu
     }
     // Indices and what loops count differ with the way a text is written.
     return missed.empty() ? counted_lines : missed;
+}
+
+/// A comparison that the text leaves out: with its other answer the reference writes what the text does. Of several
+/// that each do, none is known to be the one, unless the text has the others' lines.
+std::vector<Blame>
+left_out_of(const text::TracedRun& right, const text::TracedRun& run, std::size_t item, OwnLines& lines,
+            const std::function<bool(std::uint32_t)>& is_common,
+            const std::function<std::vector<text::TracedWord>(std::span<const text::ForcedRow>)>& again) {
+    std::vector<Blame> found;
+    for (const text::Suspect& one : text::suspects_of(right, run, again, true)) {
+        const text::TraceRow& row = right.trace.rows[one.row];
+        Chain chain = lines.chain(right.trace, row);
+        if (one.repairs && row.kind == text::TraceRow::Kind::comparison && !chain.lines.empty())
+            found.push_back({item, std::move(chain), repair, compared(right.trace, row), false, true});
+    }
+    const auto are_one = [&] {
+        return std::ranges::all_of(found,
+                                   [&](const Blame& one) { return one.chain.lines == found.front().chain.lines; });
+    };
+    if (!are_one())
+        std::erase_if(found, [&](const Blame& one) { return is_common(one.chain.lines.front()); });
+    return are_one() ? found : std::vector<Blame>();
 }
 
 } // namespace
@@ -226,6 +247,10 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
     std::vector<Blame> blames, missing_blames;
     OwnLines own_lines(program, is_own), expected_lines(expected, is_own);
     const std::set<std::string> texts = lines_in(wrong.source), expected_texts = lines_in(reference.source);
+    const auto is_common = [&](std::uint32_t line) { return expected_texts.contains(line_text(wrong.source, line)); };
+    const auto is_common_in_reference = [&](std::uint32_t line) {
+        return texts.contains(line_text(reference.source, line));
+    };
     Calls calls, expected_calls;
     expected_calls.prefers_callers = true;
     std::size_t looked_at = 0;
@@ -262,43 +287,20 @@ std::vector<WitnessLine> witness_lines(const WitnessedText& wrong, const Witness
                               what_of(run.trace, one), !one.repairs && row.kind == text::TraceRow::Kind::comparison});
         }
         std::vector<Blame> missed = missing_of(right, run, looked_at, expected_lines);
-        // A comparison that the text leaves out: with its other answer the reference does what the text does. Of
-        // several that each do, none is known to be the one, unless the text has the others' lines.
-        if (!is_repaired) {
-            std::vector<Blame> turned;
-            for (const text::Suspect& one : text::suspects_of(
-                     right, run,
-                     [&](std::span<const text::ForcedRow> forced) {
-                         return common_run(reference, expected_number, forced).words;
-                     },
-                     true)) {
-                const text::TraceRow& row = right.trace.rows[one.row];
-                Chain chain = expected_lines.chain(right.trace, row);
-                if (one.repairs && row.kind == text::TraceRow::Kind::comparison && !chain.lines.empty())
-                    turned.push_back({looked_at, std::move(chain), repair, compared(right.trace, row), false, true});
-            }
-            const auto are_one = [&] {
-                return std::ranges::all_of(
-                    turned, [&](const Blame& one) { return one.chain.lines == turned.front().chain.lines; });
-            };
-            if (!are_one())
-                std::erase_if(turned, [&](const Blame& one) {
-                    return texts.contains(line_text(reference.source, one.chain.lines.front()));
-                });
-            if (are_one())
-                std::ranges::move(turned, std::back_inserter(missed));
-        }
+        if (!is_repaired)
+            std::ranges::move(left_out_of(right, run, looked_at, expected_lines, is_common_in_reference,
+                                          [&](std::span<const text::ForcedRow> forced) {
+                                              return common_run(reference, expected_number, forced).words;
+                                          }),
+                              std::back_inserter(missed));
         for (Blame& one : missed) {
             expected_calls.blame(one.chain);
             missing_blames.push_back(std::move(one));
         }
         ++looked_at;
     }
-    std::map<std::uint32_t, Line> lines = lines_by(
-        blames, calls, [&](std::uint32_t line) { return expected_texts.contains(line_text(wrong.source, line)); });
-    const std::map<std::uint32_t, Line> missing = lines_by(missing_blames, expected_calls, [&](std::uint32_t line) {
-        return texts.contains(line_text(reference.source, line));
-    });
+    std::map<std::uint32_t, Line> lines = lines_by(blames, calls, is_common);
+    const std::map<std::uint32_t, Line> missing = lines_by(missing_blames, expected_calls, is_common_in_reference);
     if (looked_at == 0)
         return {};
     // A line that differs where both write the same is another way to write it.

@@ -36,7 +36,6 @@ class Seen {
                 values_.insert(row.bits);
                 break;
             case Kind::comparison:
-                made_of_.insert(made_of(trace, row));
                 answers_[made_of(trace, row)].insert(row.bits);
                 break;
             case Kind::operation:
@@ -53,7 +52,9 @@ class Seen {
             return places_.contains(row.place) || says_little(row) || values_.contains(row.bits);
         if (row.kind == Kind::load)
             return places_.contains(row.place);
-        if (row.kind == Kind::comparison || says_little(row))
+        if (row.kind == Kind::comparison)
+            return answers_.contains(made_of(trace, row));
+        if (says_little(row))
             return made_of_.contains(made_of(trace, row));
         return values_.contains(row.bits);
     }

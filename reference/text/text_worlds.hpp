@@ -66,7 +66,7 @@ class TextWorlds : public Worlds<PlainArithmetic> {
         if ((std::bit_cast<std::uint32_t>(x) & last_digits) == 0 || !std::isfinite(x))
             return x;
         const double half = 0.5 * interval::ulp(x);
-        return make({}, [&](const auto&) { return Interval(double{x} - half, double{x} + half); });
+        return between(Interval(double{x} - half, double{x} + half));
     }
     template <class Condition> bool decide(At, const Condition& condition) {
         return Worlds<PlainArithmetic>::decide(*place_, condition);

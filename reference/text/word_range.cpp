@@ -77,37 +77,6 @@ bool have_common(const WordRange& a, const WordRange& b) { return a.contains(b.f
 
 } // namespace
 
-bool is_known(std::uint32_t operation) {
-    switch (operation) {
-    case spv::OpSNegate:
-    case spv::OpNot:
-    case spv::OpIAdd:
-    case spv::OpISub:
-    case spv::OpIMul:
-    case spv::OpUDiv:
-    case spv::OpSDiv:
-    case spv::OpIEqual:
-    case spv::OpINotEqual:
-    case spv::OpUGreaterThan:
-    case spv::OpSGreaterThan:
-    case spv::OpUGreaterThanEqual:
-    case spv::OpSGreaterThanEqual:
-    case spv::OpULessThan:
-    case spv::OpSLessThan:
-    case spv::OpULessThanEqual:
-    case spv::OpSLessThanEqual:
-    case spv::OpShiftRightLogical:
-    case spv::OpShiftRightArithmetic:
-    case spv::OpShiftLeftLogical:
-    case spv::OpBitwiseOr:
-    case spv::OpBitwiseXor:
-    case spv::OpBitwiseAnd:
-        return true;
-    default:
-        return false;
-    }
-}
-
 Result of(std::uint32_t operation, const WordRange& a, const WordRange& b) {
     const std::uint32_t by = b.first & 31U;
     switch (operation) {
@@ -171,6 +140,8 @@ Result of(std::uint32_t operation, const WordRange& a, const WordRange& b) {
         return {};
     }
 }
+
+bool is_known(std::uint32_t operation) { return of(operation, {}, {}).has_value(); }
 
 std::optional<Interval> floats(const WordRange& a) {
     const float first = std::bit_cast<float>(a.first), last = std::bit_cast<float>(a.last());

@@ -104,6 +104,8 @@ SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, 
     if (!run.reference.empty())
         reference_use_ = references_of(read_.scene, run);
     own_texts_ = take_texts(shaded(), references_);
+    if (!is_recorded())
+        show_texts(shaded(), run.shaders);
     if (scene().picture && reference_use_) {
         SystemPicture picture = scene().picture(read_.scene.system.start, 0);
         take_texts({picture.system, picture.passes, scene().arithmetic}, references_);
@@ -124,7 +126,10 @@ OwnTexts SystemInput::take_texts(const ShadedSystem& of, References& references)
 DrawnSystem SystemInput::drawn(const SystemState& state, int frame) const {
     DrawnSystem made{scene().picture(state, frame), {}};
     References ignored; // the notes say it once
-    made.own_texts = take_texts({made.picture.system, made.picture.passes, scene().arithmetic}, ignored);
+    const ShadedSystem of{made.picture.system, made.picture.passes, scene().arithmetic};
+    made.own_texts = take_texts(of, ignored);
+    if (!is_recorded())
+        show_texts(of, run_.shaders);
     return made;
 }
 

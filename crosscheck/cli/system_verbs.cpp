@@ -20,6 +20,7 @@
 #include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/package/driver_notes.hpp"
 #include "crosscheck/package/shader_findings.hpp"
 #include "crosscheck/package/text_passes.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
@@ -61,6 +62,8 @@ struct DrawnFrame {
 /// What the texts of the user's own shaders say.
 void add_text_notes(RunDescription& about, const ShadedSystem& of, const OwnTexts& own, const RunOptions& run,
                     SystemSide& side, const KnownOperations& known, CheckReport& report) {
+    for (std::string& note : driver_notes(of, run.shaders, side, known, report))
+        about.notes.push_back(std::move(note));
     if (!about.shaders || run.shaders.empty())
         return;
     for (std::string& note : text_notes(of, {own, *about.shaders, run.shaders, run.reference}, side, known, report))
@@ -390,6 +393,7 @@ int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal le
         RunOptions changed = run;
         changed.set.insert(changed.set.end(), changes.begin(), changes.end());
         const auto read = std::make_shared<ReadScene>(read_scene(system, changed));
+        show_texts({read->scene.system, read->scene.passes, read->scene.arithmetic}, changed.shaders);
         const std::shared_ptr<const System> twins(read, &read->scene.system);
         auto side = std::make_shared<GlSystemSide>(gl, *twins, read->scene.passes, changed.shaders.string(),
                                                    read->scene.arithmetic);

@@ -525,8 +525,16 @@ std::string legal_text(const Interval& legal, Scalar scalar) {
     return legal.low == legal.high ? text(legal.low) : fmt::format("{} to {}", text(legal.low), text(legal.high));
 }
 
-std::vector<StepRow> item_rows(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told) {
-    return ItemTable(pass, item, told)();
+std::vector<StepRow> item_rows(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told,
+                               const ItemSteps* text) {
+    std::vector<StepRow> rows = ItemTable(pass, item, told)();
+    if (text != nullptr)
+        align(rows, *text);
+    return rows;
+}
+
+std::optional<ItemSteps> steps_of_item(const JudgedPass& pass, std::size_t item) {
+    return pass.text == nullptr ? std::nullopt : std::optional(pass.text->of(pass.input(), item, pass.profile));
 }
 
 std::vector<ToldValue> told_by_state(const ItemPass& pass, const View& gpu, std::size_t item) {

@@ -35,6 +35,7 @@ struct StepRow {
     Cell gpu = {};
     RowVerdict verdict = RowVerdict::untold;
     std::string reason = {}; ///< what would be legal, where it is not
+    std::string where = {};  ///< of the shader's text, what has its value: FILE:LINE, and the variable
     bool is_fetch = false;   ///< a texel read
 
     /// Between the reference with its profile and the GPU; 0 where one has no number.

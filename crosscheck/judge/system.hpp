@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "crosscheck/judge/text_steps.hpp"
 #include "reference/readings/mistake.hpp"
 #include "reference/system/item_pass.hpp"
 
@@ -41,8 +42,14 @@ struct System {
     std::vector<std::unique_ptr<ItemPass>> passes;
     std::vector<NamedMistake> mistakes;
     SystemState start;
-    std::string settings; ///< as a report has them
+    std::string settings;                                     ///< as a report has them
+    std::vector<std::shared_ptr<const PassSteps>> texts = {}; ///< of each pass, or of none
 };
+
+/// Of the shader of a pass; null: it is not known.
+[[nodiscard]] inline const PassSteps* text_of(const System& system, std::size_t pass) {
+    return pass < system.texts.size() ? system.texts[pass].get() : nullptr;
+}
 
 /// One pass of one frame: what it started from, and what both sides made of it. Refers to the run's own data.
 struct JudgedPass {
@@ -57,6 +64,7 @@ struct JudgedPass {
     const SystemView* earlier = nullptr;
     std::shared_ptr<const ItemPass> prepared = nullptr; ///< for its input
     bool surely_written = false;                        ///< of what diverges nothing is as it was for want of a write
+    const PassSteps* text = nullptr;                    ///< of the GPU's shader
 
     [[nodiscard]] PassInput input() const { return {before, frame}; }
     /// The pass on its input, and on no other.

@@ -114,6 +114,7 @@ class SystemChecker {
         const SystemView earlier = earlier_[p] ? earlier_[p]->view() : SystemView();
         const View by_reference = std::as_const(made_)[r], by_gpu = holds ? by_reference : std::as_const(now_)[r];
         JudgedPass one{pass, profile_, known_, frame_, from, by_reference, by_gpu, earlier_[p] ? &earlier : nullptr};
+        one.text = text_of(system_, p);
         const bool differs = judged_ && comparison.differing(r) > 0;
         const std::vector<ItemVerdict> verdicts = differs ? judge(one, p) : std::vector<ItemVerdict>();
         if (watch_.on_pass)

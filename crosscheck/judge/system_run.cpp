@@ -152,8 +152,10 @@ void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)
 }
 
 JudgedPass SystemRun::judged() const {
-    return {*passes_[pass_], profile_,        known_,    frame_,
-            before_view_,    reference_view_, gpu_view_, earlier_ ? &earlier_view_ : nullptr};
+    JudgedPass judged{*passes_[pass_], profile_,        known_,    frame_,
+                      before_view_,    reference_view_, gpu_view_, earlier_ ? &earlier_view_ : nullptr};
+    judged.text = text_of(system_, pass_);
+    return judged;
 }
 
 std::vector<ToldValue> SystemRun::told(std::size_t item) { return told_of(gpu_, pass_, judged(), item); }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "crosscheck/package/driver_notes.hpp"
 #include "gpu/shader_use.hpp"
 #include "lockstep/shader_text.hpp"
 #include "reference/system/item_twin.hpp"
@@ -57,10 +58,14 @@ void SystemTexts::take_references(const std::filesystem::path& folder,
 void SystemTexts::take_shaders(const std::filesystem::path& folder, const std::filesystem::path& reference) {
     own_ = {{}, shader_use(of_.system.schema.system, stages_of(of_.passes, of_.arithmetic), folder), folder, reference};
     own_->texts = open_by_own_text(of_, own_->use, folder);
+    show_texts(of_, folder);
 }
 
 std::vector<std::string> SystemTexts::notes(SystemSide& side, const KnownOperations& known, CheckReport& report) const {
     std::vector<std::string> notes = references_.lines;
+    if (own_)
+        for (std::string& note : driver_notes(of_, own_->folder, side, known, report))
+            notes.push_back(std::move(note));
     if (own_)
         for (std::string& note : text_notes(of_, *own_, side, known, report))
             notes.push_back(std::move(note));

@@ -15,6 +15,7 @@
 #include "crosscheck/judge/item_sample.hpp"
 #include "crosscheck/judge/open_pass.hpp"
 #include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/text/item_steps.hpp"
 #include "crosscheck/text/pass_witness.hpp"
 #include "crosscheck/text/stage_text.hpp"
 #include "reference/model/error.hpp"
@@ -135,6 +136,37 @@ OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const st
         }
     }
     return texts;
+}
+
+std::shared_ptr<const PassText> text_of_pass(const ShadedSystem& of, std::size_t p,
+                                             const std::filesystem::path& shaders) {
+    const std::size_t lead = lead_of(of, p);
+    if (!has_text(of.passes[lead]))
+        return nullptr;
+    std::shared_ptr<const PassText> text = text_of(of, lead, shader_folders(shaders, of.system.schema.system));
+    return is_made_again(of, p, *text) ? text : nullptr;
+}
+
+void show_texts(const ShadedSystem& of, const std::filesystem::path& shaders) {
+    const Schema& schema = of.system.schema;
+    of.system.texts.resize(of.passes.size());
+    for (std::size_t p = 0; p < of.passes.size(); ++p) {
+        const std::size_t lead = lead_of(of, p);
+        if (!has_text(of.passes[lead]))
+            continue;
+        std::vector<std::uint8_t> before; // what the passes before it made of the dispatch
+        for (std::size_t k = lead; k < p; ++k)
+            before.push_back(of.system.passes[k]->resource());
+        of.system.texts[p] = steps_of_text(
+            of.system.passes[p]->resource(),
+            [&schema, pass = of.passes[lead], written = written_by(of.system, lead),
+             folders = shader_folders(shaders, schema.system), arithmetic = of.arithmetic, before] {
+                auto text = std::make_shared<const PassText>(schema, pass, written, folders, arithmetic);
+                if (std::ranges::any_of(before, [&](std::uint8_t resource) { return text->reads(resource); }))
+                    throw Error("its dispatch wrote what it reads");
+                return text;
+            });
+    }
 }
 
 namespace {

@@ -44,6 +44,14 @@ References take_references(const ShadedSystem& of, const ShaderUse& references, 
 /// interpreted leaves the pass as it is. Returns the texts.
 OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const std::filesystem::path& shaders);
 
+/// The text of what dispatches pass p, in the user's folder or the shipped one; null: it has none, or its dispatch
+/// wrote what it reads. Throws Error where it is not interpreted.
+std::shared_ptr<const PassText> text_of_pass(const ShadedSystem& of, std::size_t p,
+                                             const std::filesystem::path& shaders);
+
+/// Has each pass show what its shader's text comes by, item by item. `shaders`: where the user's own are.
+void show_texts(const ShadedSystem& of, const std::filesystem::path& shaders);
+
 /// Where a check is DIVERGENT in a pass whose shader is the user's own: the lines of its text that have no counterpart
 /// in the reference's, which is in `reference` or the shipped one (text/witness.hpp).
 std::vector<std::string> lines_without_counterpart(const ShadedSystem& of, const OwnTexts& own, const ShaderUse& use,

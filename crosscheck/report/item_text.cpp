@@ -14,6 +14,7 @@
 #include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/report/row_text.hpp"
 #include "crosscheck/report/shader_notes.hpp"
+#include "crosscheck/report/text_steps_text.hpp"
 #include "crosscheck/scene/profile_text.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/ulp.hpp"
@@ -48,14 +49,16 @@ std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<con
     const Resource& about = pass.gpu.about();
     std::string text =
         fmt::format("{} in frame {}, pass {}\n", item_name(about, pass.gpu.extent, item), pass.frame, pass.pass.name());
-    const std::vector<StepRow> rows = item_rows(pass, item, told);
+    const std::optional<ItemSteps> steps = steps_of_item(pass, item);
+    const std::vector<StepRow> rows = item_rows(pass, item, told, steps ? &*steps : nullptr);
     std::size_t width = narrowest_label;
     for (const StepRow& row : rows)
         width = std::max(width, row.label.size());
     text.append("\n").append(head_text(pass.profile, width));
     for (const StepRow& row : rows)
         text += row_text(row, format, width);
-    return text + "\n" + item_verdict_text(pass, item, rows);
+    text += "\n" + item_verdict_text(pass, item, rows);
+    return steps ? text + text_steps_text(pass, item, *steps, format) : text;
 }
 
 std::string item_verdict_text(const JudgedPass& pass, std::size_t item, const std::vector<StepRow>& rows) {

@@ -25,9 +25,10 @@ std::string ulp_text(const StepRow& row) {
 }
 
 std::string line(std::size_t width, std::string_view mark, std::string_view label, std::string_view strict,
-                 std::string_view reference, std::string_view gpu, std::string_view ulp, std::string_view verdict) {
-    std::string text = fmt::format("{:1} {:<{}} {:<24} {:<24} {:<24} {:>10}  {}", mark, label, width, strict, reference,
-                                   gpu, ulp, verdict);
+                 std::string_view reference, std::string_view gpu, std::string_view ulp, std::string_view verdict,
+                 std::string_view where = {}) {
+    std::string text = fmt::format("{:1} {:<{}} {:<24} {:<24} {:<24} {:>10}  {:<9}  {}", mark, label, width, strict,
+                                   reference, gpu, ulp, verdict, where);
     text.erase(text.find_last_not_of(' ') + 1);
     return text + "\n";
 }
@@ -41,7 +42,7 @@ std::string number_text(float value, NumberFormat format) {
 std::string row_text(const StepRow& row, NumberFormat format, std::size_t label_width) {
     return line(label_width, row.differs() ? ">" : "", row.label, cell_text(row.strict, format),
                 cell_text(row.reference, format), cell_text(row.gpu, format), ulp_text(row),
-                row_verdict_names[static_cast<std::size_t>(row.verdict)]);
+                row_verdict_names[static_cast<std::size_t>(row.verdict)], row.where);
 }
 
 std::string head_text(const Profile& profile, std::size_t label_width) {

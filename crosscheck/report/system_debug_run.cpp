@@ -96,7 +96,9 @@ std::string SystemDebugRun::why(DebugItem item, NumberFormat) {
 
 std::vector<StepRow> SystemDebugRun::rows(DebugItem item) {
     come_to(item.group);
-    return item_rows(run_.judged(), item.index, run_.told(item.index));
+    const JudgedPass judged = run_.judged();
+    const std::optional<ItemSteps> steps = steps_of_item(judged, item.index);
+    return item_rows(judged, item.index, run_.told(item.index), steps ? &*steps : nullptr);
 }
 
 std::vector<ItemVerdict> SystemDebugRun::verdicts(std::size_t group) {

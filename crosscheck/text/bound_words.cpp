@@ -29,10 +29,10 @@ std::vector<std::uint32_t> words_of_buffer(GLenum target, GLenum start_name, GLe
     return words;
 }
 
-using UniformValue = std::array<std::uint32_t, 16>; ///< as much as a mat4 has
+using UniformRead = std::array<std::uint32_t, 16>; ///< as much as a mat4 has
 
-UniformValue value_at(GLuint program, GLint location, bool is_real) {
-    UniformValue value{};
+UniformRead value_at(GLuint program, GLint location, bool is_real) {
+    UniformRead value{};
     if (is_real)
         gl::GetUniformfv(program, location, reinterpret_cast<GLfloat*>(value.data()));
     else
@@ -55,7 +55,7 @@ void copy_uniform(GLuint from, GLuint to, std::string name, GLint size, GLenum t
         const GLint source = gl::GetUniformLocation(from, one.c_str()), at = gl::GetUniformLocation(to, one.c_str());
         if (source < 0 || at < 0)
             continue;
-        const UniformValue value = value_at(from, source, is_float_type(type));
+        const UniformRead value = value_at(from, source, is_float_type(type));
         if (!set_uniform_words(at, type, std::span(value).first(components_of(type)))) // of a sampler, its unit
             gl::Uniform1i(at, static_cast<GLint>(value[0]));
     }
@@ -88,7 +88,7 @@ std::vector<std::uint32_t> words_of_uniform(GLuint program, const text::PlainUni
     std::vector<std::uint32_t> words(uniform.cells);
     const auto location_of = [&](const std::string& name) { return gl::GetUniformLocation(program, name.c_str()); };
     const auto read = [&](GLint location, std::size_t first) {
-        const UniformValue value = value_at(program, location, uniform.is_real);
+        const UniformRead value = value_at(program, location, uniform.is_real);
         std::copy_n(value.begin(), std::min(value.size(), words.size() - first),
                     words.begin() + static_cast<std::ptrdiff_t>(first));
     };

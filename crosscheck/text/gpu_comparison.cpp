@@ -130,6 +130,8 @@ GpuComparison compare_with_gpu(const MeasuredGl& gl, const StageText& stage, con
     made.unjudged = compared.unjudged.size();
     made.unjudged_for = compared.unjudged_for;
     made.wrong_words = compared.wrong.size();
+    if (!compared.wrong.empty())
+        made.first_wrong = compared.wrong.front();
     for (const ComparedWord& one : first_of_each(compared.wrong, most_lines))
         made.wrong.push_back(line_of(stage, text, one));
     return made;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "crosscheck/text/made_up_world.hpp"
 #include "crosscheck/text/stage_text.hpp"
+#include "crosscheck/text/word_comparison.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/text/findings.hpp"
 
@@ -31,6 +33,7 @@ struct GpuComparison {
     std::string unjudged_for;
     std::vector<std::string> wrong; ///< the first few of the rest: where, what the text has, what the driver made
     std::size_t wrong_words = 0;
+    std::optional<ComparedWord> first_wrong = {};
 
     [[nodiscard]] bool is_right() const { return wrong_words == 0 && unjudged == 0; }
     [[nodiscard]] std::string text() const;

@@ -124,17 +124,48 @@ std::optional<std::uint32_t> TextDispatch::invocation_at(std::uint8_t resource, 
     return number;
 }
 
+std::optional<Component> TextDispatch::component_at(std::uint8_t resource, std::size_t item,
+                                                    const text::WrittenPlace& place) const {
+    const std::size_t blocks = input_.bindings.blocks.size();
+    for (const std::size_t from : text_.words_of_resource(resource)) {
+        const std::span<const Component> record = text_.record(from);
+        if (text_.is_vertex()) {
+            const std::optional<std::size_t> captured =
+                place.space == Space::output ? text_.captured_component(place.word) : std::nullopt;
+            if (captured && *captured < record.size())
+                return record[*captured];
+            continue;
+        }
+        const bool is_block = from < blocks;
+        if (place.space != (is_block ? Space::block : Space::texel) ||
+            place.number != (is_block ? from : from - blocks))
+            continue;
+        const std::uint64_t at = place.word - item * record.size(); // far beyond, where it is before
+        if (at < record.size())
+            return record[at];
+    }
+    return {};
+}
+
+std::optional<std::vector<std::uint32_t>> TextDispatch::words_by(const View& before, std::uint8_t resource,
+                                                                 std::size_t item,
+                                                                 std::span<const text::TracedWord> written) const {
+    std::vector<std::uint32_t> all = item_words(before, item);
+    bool is_written = false;
+    for (const text::TracedWord& word : written)
+        if (const std::optional<Component> c = component_at(resource, item, word.place)) {
+            if (word.place.space == Space::texel &&
+                input_.bindings.images[word.place.number].code != text::TexelMemory::Code::number)
+                return {};
+            all[place_of(before.about(), *c)] = word.bits;
+            is_written = true;
+        }
+    return is_written ? std::optional(std::move(all)) : std::nullopt;
+}
+
 std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t resource, std::size_t item,
                                                 const KnownOperations& known, text::Constants constants) const {
     run();
-    const std::vector<std::size_t> parts_of_item = text_.words_of_resource(resource);
-    const auto place_in = [&](std::size_t from) { // whose words, by number
-        if (text_.is_vertex())
-            return std::pair(Space::output, 0U);
-        const bool is_block = from < writers_.blocks.size();
-        return std::pair(is_block ? Space::block : Space::texel,
-                         static_cast<std::uint32_t>(is_block ? from : from - writers_.blocks.size()));
-    };
     const PassStage stage = text_.is_vertex() ? PassStage::vertex : PassStage::compute;
     const std::optional<std::uint32_t> by = writer(resource, item);
     if (!by)
@@ -154,20 +185,10 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
                                              : item_twin::set_of(before.value(c.field, item, c.component).bits,
                                                                  about.fields[c.field].scalar));
             for (const text::WrittenWord& word : one.written)
-                for (const std::size_t from : parts_of_item) {
-                    if (std::pair(word.place.space, word.place.number) != place_in(from))
-                        continue;
+                if (const std::optional<Component> c = component_at(resource, item, word.place)) {
                     if (word.is_code)
                         return {};
-                    const std::span<const Component> record = text_.record(from);
-                    const std::uint64_t begin = item * record.size();
-                    const std::size_t place = text_.is_vertex()
-                                                  ? text_.captured_component(word.place.word).value_or(record.size())
-                                                  : word.place.word - begin; // far beyond, where it is before
-                    if (place >= record.size())
-                        continue;
-                    const Component& c = record[place];
-                    outcome.values[place_of(about, c)] = word.set_in(about.fields[c.field].scalar);
+                    outcome.values[place_of(about, *c)] = word.set_in(about.fields[c->field].scalar);
                 }
             all.push_back(std::move(outcome));
         }

@@ -8,6 +8,7 @@
 
 #include "crosscheck/text/pass_text.hpp"
 #include "reference/system/own_text.hpp"
+#include "reference/text/trace.hpp"
 
 namespace lockstep {
 
@@ -23,6 +24,13 @@ class TextDispatch {
     /// The one invocation that wrote of an item, by its number, or, where none did, that which stands where the item
     /// does: it may have been about to. Nothing: several wrote of it, or none stands there.
     [[nodiscard]] std::optional<std::uint32_t> writer(std::uint8_t resource, std::size_t item) const;
+    /// The invocation that stands where the item does; nothing: none.
+    [[nodiscard]] std::optional<std::uint32_t> invocation_at(std::uint8_t resource, std::size_t item) const;
+    /// An item's words where one invocation alone wrote `written`; nothing: it wrote none of them, or they are stored
+    /// otherwise than they were written.
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> words_by(const View& before, std::uint8_t resource,
+                                                                     std::size_t item,
+                                                                     std::span<const text::TracedWord> written) const;
     /// Items first to last of a resource, the last excluded, into `after`; what the text does not write is as `before`
     /// has it, and fields that are left out stay so.
     void write(const View& before, std::uint8_t resource, std::size_t first, std::size_t last,
@@ -36,7 +44,9 @@ class TextDispatch {
 
   private:
     void run() const;
-    [[nodiscard]] std::optional<std::uint32_t> invocation_at(std::uint8_t resource, std::size_t item) const;
+    /// Which of an item's components a place is; nothing: none.
+    [[nodiscard]] std::optional<Component> component_at(std::uint8_t resource, std::size_t item,
+                                                        const text::WrittenPlace& place) const;
 
     const PassText& text_;
     Profile profile_;

@@ -115,12 +115,37 @@ std::uint32_t Decoder::take_cells(std::uint32_t count) {
 
 std::uint32_t Decoder::zeroed_cells(std::uint32_t variable, std::uint32_t type_id) {
     const std::uint32_t first = take_cells(type(type_id).cells);
+    constexpr std::uint32_t most_parts = 256;
     p_.names.push_back({module_.ids[variable].name, first, type(type_id).cells});
+    if (type(type_id).cells <= most_parts)
+        note_parts(type_id, "", p_.names.back().parts);
     if (p_.names.back().name.find(counted_name) != std::string::npos) {
         p_.counted.resize(first);
         p_.counted.resize(first + type(type_id).cells, 1);
     }
     return first;
+}
+
+void Decoder::note_parts(std::uint32_t type_id, const std::string& name, std::vector<NamedCells::Part>& parts) const {
+    const Type& of = type(type_id);
+    switch (of.kind) {
+    case Type::Kind::structure:
+        for (const Type::Member& member : of.members)
+            note_parts(member.type, name + "." + member.name, parts);
+        return;
+    case Type::Kind::vector:
+        for (std::uint32_t c = 0; c < of.count; ++c)
+            note_parts(of.element, fmt::format("{}.{}", name, "xyzw"[c]), parts);
+        return;
+    case Type::Kind::matrix:
+    case Type::Kind::array:
+        for (std::uint32_t k = 0; k < of.count; ++k)
+            note_parts(of.element, fmt::format("{}[{}]", name, k), parts);
+        return;
+    default:
+        parts.resize(parts.size() + of.cells,
+                     {name, of.kind == Type::Kind::real, of.kind == Type::Kind::boolean, of.is_signed});
+    }
 }
 
 std::uint32_t Decoder::word_cell(std::uint32_t word) {

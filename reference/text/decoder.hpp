@@ -61,7 +61,8 @@ class Decoder {
     [[noreturn]] void refuse(const std::string& what) const { module_.refuse(line_, what); }
     std::uint32_t take_cells(std::uint32_t count);
     std::uint32_t zeroed_cells(std::uint32_t variable, std::uint32_t type); ///< zero for each invocation at first
-    std::uint32_t word_cell(std::uint32_t word);                            ///< a cell that holds this constant
+    void note_parts(std::uint32_t type, const std::string& name, std::vector<NamedCells::Part>& parts) const;
+    std::uint32_t word_cell(std::uint32_t word); ///< a cell that holds this constant
     std::uint32_t cell(std::uint32_t id);
     const Type& type(std::uint32_t id) const { return module_.types[id]; }
     bool is_real(std::uint32_t type) const { return module_.scalar_of(type).kind == Type::Kind::real; }

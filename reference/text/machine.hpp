@@ -258,6 +258,7 @@ template <class R, int W> class Machine {
     };
     std::vector<PendingRow> pending_;
     std::uint32_t calls_ = 0;                                    ///< TraceRow::calls of what is noted
+    std::uint32_t noted_step_ = 0;                               ///< that is noted
     std::vector<std::pair<std::uint32_t, std::uint32_t>> moves_; ///< cells and who made what is moved there
     std::vector<std::uint32_t> made_by_, moved_made_by_; ///< of a traced reading, the row of each cell and 1; 0: none
     /// Of a traced reading, where each cell of an output was set last.

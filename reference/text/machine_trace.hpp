@@ -63,6 +63,7 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
     using Kind = TraceRow::Kind;
     Trace& noted = *noted_;
     const auto step = static_cast<std::uint32_t>(&s - p_.steps.data());
+    noted_step_ = step;
     if (s.op == code::call) {
         noted.calls.push_back({step, calls_});
         calls_ = static_cast<std::uint32_t>(noted.calls.size());
@@ -260,8 +261,16 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
 }
 
 template <class R, int W> void Machine<R, W>::note_results() {
-    for (const auto& [out, row] : moves_)
+    const auto note_setting = [&](std::uint32_t number) {
+        if (!noted_->notes_settings || number >= p_.variables)
+            return;
+        noted_->settings.push_back(
+            {static_cast<std::uint32_t>(noted_->rows.size()), noted_step_, number, cell(number)->word()});
+    };
+    for (const auto& [out, row] : moves_) {
         made_by_[out] = row;
+        note_setting(out);
+    }
     moves_.clear();
     for (PendingRow& pending : pending_) {
         const auto row = static_cast<std::uint32_t>(noted_->rows.size());
@@ -273,8 +282,10 @@ template <class R, int W> void Machine<R, W>::note_results() {
         if (pending.row.place.space == WrittenPlace::Space::shared) // which has no type here
             pending.row.is_real = pending.row.is_real || tracing::looks_real(pending.row.bits);
         noted_->rows.push_back(pending.row);
-        if (pending.is_result)
+        if (pending.is_result) {
             made_by_[pending.cell] = row + 1;
+            note_setting(pending.cell);
+        }
     }
     pending_.clear();
 }

@@ -147,8 +147,14 @@ struct StageVariable {
 
 /// A variable of the text.
 struct NamedCells {
+    /// A scalar of it.
+    struct Part {
+        std::string name; ///< behind the variable's: .velocity.y, [3]; empty: it is the whole
+        bool is_real = false, is_boolean = false, is_signed = false;
+    };
     std::string name;
     std::uint32_t first = 0, count = 0;
+    std::vector<Part> parts = {}; ///< empty of many
 };
 
 struct CellWord {

@@ -50,6 +50,7 @@ WrittenWords<TracedValues> run_noted(const Program& program, const Invocation& i
     trace.rows.clear();
     trace.operands.clear();
     trace.calls.clear();
+    trace.settings.clear();
     run.note_into(trace, forced);
     prepare(run, written);
     run.start({&invocation, 1});

@@ -34,10 +34,18 @@ struct TraceRow {
     std::uint32_t calls = 0;            ///< Trace::calls, from 1; 0: the main function
 };
 
+/// A scalar of a variable that was set.
+struct TraceSetting {
+    std::uint32_t rows = 0; ///< how many there were
+    std::uint32_t step = 0, cell = 0, bits = 0;
+};
+
 /// What one invocation came by, in order.
 struct Trace {
     std::vector<TraceRow> rows;
     std::vector<TraceOperand> operands;
+    bool notes_settings = false; ///< asked for
+    std::vector<TraceSetting> settings;
     struct Call {
         std::uint32_t step = 0, outer = 0; ///< of the call, and the call around it
     };

@@ -32,6 +32,8 @@ json row_json(const StepRow& row) {
         out["ulp"] = row.ulp() == INT64_MAX ? json() : json(row.ulp());
     if (!row.reason.empty())
         out["reason"] = row.reason;
+    if (!row.where.empty())
+        out["where"] = row.where;
     return out;
 }
 

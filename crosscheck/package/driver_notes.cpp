@@ -1,0 +1,138 @@
+#include "crosscheck/package/driver_notes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/judge/dispatch.hpp"
+#include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/item_place.hpp"
+#include "crosscheck/judge/item_sample.hpp"
+#include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/text/bound_stage.hpp"
+#include "crosscheck/text/faulty_operation.hpp"
+#include "crosscheck/text/item_steps.hpp"
+#include "crosscheck/text/text_pass.hpp"
+#include "gpu/system_side.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+/// An item that the GPU made otherwise than its text says.
+struct Departure {
+    std::size_t item = 0;
+    std::size_t component = 0;
+    std::uint32_t by_text = 0, by_gpu = 0;
+};
+
+/// Of a divergent item: what the GPU has lies in none of its text's outcomes, or the text makes what the reference
+/// does.
+std::optional<Departure> departure(const JudgedPass& judged, const TextDispatch& dispatch, std::size_t item) {
+    const std::uint8_t r = judged.pass.resource();
+    const View before = judged.before[r];
+    const std::vector<std::uint32_t> gpu = item_words(judged.gpu, item), text = dispatch.words(before, r, item);
+    const auto differs = std::ranges::mismatch(gpu, text);
+    if (differs.in1 == gpu.end())
+        return {};
+    const auto lies_in = [&](const ItemOutcome& outcome) {
+        const std::vector<Component> parts = components(judged.gpu.about());
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const Value value = judged.gpu.value(parts[k].field, item, parts[k].component);
+            const Interval& set = outcome.values[k];
+            const bool is_in = value.scalar == Scalar::float32 ? set.contains(value.real())
+                                                               : set.low <= static_cast<double>(value.integer()) &&
+                                                                     static_cast<double>(value.integer()) <= set.high;
+            if (!set.any && !is_in)
+                return false;
+        }
+        return true;
+    };
+    if (text != item_words(judged.reference, item) &&
+        std::ranges::any_of(dispatch.outcomes(before, r, item, judged.known), lies_in))
+        return {};
+    return Departure{item, static_cast<std::size_t>(differs.in1 - gpu.begin()), *differs.in2, *differs.in1};
+}
+
+/// "velocity.y is -0.25 by the text, -0.5 on the GPU".
+std::string words_of(const JudgedPass& judged, const Departure& one) {
+    const Resource& about = judged.gpu.about();
+    const Component part = components(about)[one.component];
+    const Field& field = about.fields[part.field];
+    const auto number = [&](std::uint32_t bits) {
+        const Value value{field.scalar, bits};
+        return value.scalar == Scalar::float32 ? fmt::format("{:.9g}", value.real())
+                                               : fmt::format("{}", value.integer());
+    };
+    return fmt::format("{} {} is {} by the text, {} on the GPU", item_name(about, judged.gpu.extent, one.item),
+                       component_name(field, part.component), number(one.by_text), number(one.by_gpu));
+}
+
+/// Under a note's words.
+std::string indented(const std::string& text) {
+    constexpr std::string_view margin = "            ";
+    std::string all(margin);
+    for (const char c : text.substr(0, text.find_last_not_of('\n') + 1))
+        all += c == '\n' ? fmt::format("\n{}", margin) : std::string(1, c);
+    return all;
+}
+
+/// Some of the items that diverge.
+std::vector<std::size_t> divergent_sample(const JudgedPass& judged) {
+    constexpr std::size_t most = 20, most_judged = 100;
+    std::vector<std::size_t> some;
+    for (const std::size_t item : sample(differing_items(judged.reference, judged.gpu), most_judged))
+        if (some.size() < most && judge_item(judged, item).kind == DifferenceClass::divergent)
+            some.push_back(item);
+    return some;
+}
+
+} // namespace
+
+std::vector<std::string> driver_notes(const ShadedSystem& of, const std::filesystem::path& shaders, SystemSide& side,
+                                      const KnownOperations& known, const CheckReport& report) try {
+    if (report.verdict != Verdict::divergent || !report.verdicts || !report.verdicts->first)
+        return {};
+    const std::size_t p = report.verdicts->first->pass;
+    const std::shared_ptr<const PassText> text = text_of_pass(of, p, shaders);
+    if (text == nullptr)
+        return {};
+    const SystemRun again(of.system, side, known, report.verdicts->first->place.frame, p);
+    const JudgedPass judged = again.judged();
+    const TextDispatch dispatch(*text, judged.input(), judged.profile);
+    std::vector<Departure> departed;
+    const std::vector<std::size_t> items = divergent_sample(judged);
+    for (const std::size_t item : items)
+        if (const std::optional<Departure> one = departure(judged, dispatch, item))
+            departed.push_back(*one);
+    if (2 * departed.size() <= items.size())
+        return {};
+    std::vector<std::string> notes{
+        fmt::format("driver: {} of {} items looked at are not what {} says, run by lockstep: {}", departed.size(),
+                    items.size(), plain_line(text->source().files.front()), words_of(judged, departed.front()))};
+    const BoundStage stage{text->program(), dispatch.input().bindings, judged.profile, dispatch.input().groups,
+                           text->is_vertex() ? &dispatch.input().vertices : nullptr};
+    std::vector<text::Trace> traces;
+    for (const Departure& one : departed)
+        if (const auto by = dispatch.writer(judged.pass.resource(), one.item)) {
+            traces.emplace_back();
+            trace_alone(stage, *by, traces.back());
+        }
+    if (const auto fault = faulty_operation({side.describe().name, judged.profile}, text->program(), traces))
+        notes.push_back(fmt::format("driver: {}: {}; this stage shows it alone:\n{}", plain_line(fault->where),
+                                    fault->words, indented(fault->repro)));
+    else
+        notes.push_back("driver: alone, it makes each operation of these items as expected: look at what it reads and "
+                        "writes, at barriers and formats");
+    return notes;
+} catch (const Error&) {
+    return {}; // the notes of the text say what is not run
+}
+
+} // namespace lockstep

@@ -1,0 +1,17 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/package/text_passes.hpp"
+
+namespace lockstep {
+
+/// Of a DIVERGENT check: whether the GPU made what the text of its own shader says of the items that differ. Where it
+/// did not, that it is the driver, and the first operation that it makes otherwise when it runs it alone; nothing where
+/// it did, or where no text is run. `shaders`: where the user's own are.
+std::vector<std::string> driver_notes(const ShadedSystem& of, const std::filesystem::path& shaders, SystemSide& side,
+                                      const KnownOperations& known, const CheckReport& report);
+
+} // namespace lockstep

@@ -7,6 +7,7 @@
 
 #include "crosscheck/judge/step_row.hpp"
 #include "crosscheck/judge/system.hpp"
+#include "crosscheck/judge/text_steps.hpp"
 
 namespace lockstep {
 

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "crosscheck/judge/text_steps.hpp"
 #include "reference/readings/mistake.hpp"
 #include "reference/system/item_pass.hpp"
 
 namespace lockstep {
+
+class PassSteps;
 
 /// A mistake with a name that people use: where in a twin, and what. Tried before those that sites allow by themselves.
 struct NamedMistake {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct TextStep {
 struct ItemSteps {
     std::string file;
     std::vector<TextStep> steps = {};
+    std::map<std::string, std::string> lines = {}; ///< of the text, by TextStep::where
     std::vector<std::uint32_t> made = {}; ///< the item as the text makes it, component by component
     std::string not_known = {};           ///< why there are none; empty: there are
 };

@@ -9,6 +9,7 @@
 
 #include "crosscheck/judge/item_verdict.hpp"
 #include "crosscheck/judge/step_row.hpp"
+#include "crosscheck/judge/text_steps.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "reference/model/state_view.hpp"
 
@@ -60,6 +61,10 @@ class DebugRun {
     [[nodiscard]] virtual std::string show(DebugItem item, NumberFormat format) = 0;
     [[nodiscard]] virtual std::string why(DebugItem item, NumberFormat format) = 0;
     [[nodiscard]] virtual std::vector<StepRow> rows(DebugItem item) = 0;
+    /// What the shader's text comes by for it; ItemSteps::not_known where there is none.
+    [[nodiscard]] virtual ItemSteps text(DebugItem /*item*/) {
+        return {.file = {}, .not_known = "this pass has no text that is run"};
+    }
 
     /// On what differs in this frame, in order; empty for a group that it does not make.
     [[nodiscard]] virtual std::vector<ItemVerdict> verdicts(std::size_t group) = 0;

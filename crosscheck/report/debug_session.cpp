@@ -75,6 +75,9 @@ const std::vector<DebugSession::Command>& DebugSession::commands() {
         {"show", "", "", "the whole table and the verdict", &DebugSession::show},
         {"step", "s", "[N]", "the next row of the table, or N rows on", &DebugSession::step},
         {"back", "", "[N]", "the row before, or N rows back", &DebugSession::back},
+        {"line", ".", "[N]",
+         "the next line of the shader's text that this item comes to, or N lines on, and what it sets",
+         &DebugSession::line},
         {"next", "n", "fetch|difference|divergence|nan",
          "the next texel fetch of this item; the next row with a difference, a divergence or a NaN, if need be of "
          "another item or a later frame",
@@ -82,8 +85,8 @@ const std::vector<DebugSession::Command>& DebugSession::commands() {
         {"why", "w", "", "the reasoning behind the verdict", &DebugSession::why},
         {"print", "p", "NAME", "the rows of that name, or of its components", &DebugSession::print},
         {"history", "", "[NAME]", "this item after each frame up to this one, both sides", &DebugSession::history},
-        {"break", "b", "[NAME < NUMBER]",
-         "where `continue` stops, by a row of this item; without a condition, list the breaks",
+        {"break", "b", "[NAME < NUMBER | FILE:LINE]",
+         "where `continue` stops, by a row of this item or a line that it comes to; alone, list the breaks",
          &DebugSession::stop_where},
         {"continue", "c", "", "on to the next frame in which a `break` holds", &DebugSession::go_on},
         {"set", "", "NAME=VALUE", "change a switch or constant and run again to this frame", &DebugSession::set},
@@ -191,6 +194,8 @@ void DebugSession::look_at(DebugItem item) {
     rows_ = run_->rows(item);
     item_ = item;
     row_.reset();
+    lines_.clear();
+    line_.reset();
 }
 
 std::string DebugSession::place() const { return fmt::format("frame {} {}", run_->frame(), run_->name(item_)); }
@@ -229,6 +234,17 @@ std::string DebugSession::step(const std::string& argument) {
 
 std::string DebugSession::back(const std::string& argument) {
     return move_by(-number_in("back", argument, 1, 1'000'000, 1));
+}
+
+std::string DebugSession::line(const std::string& argument) {
+    const auto lines = static_cast<std::size_t>(number_in("line", argument, 1, 1'000'000, 1));
+    if (lines_.empty())
+        lines_ = debug_lines(run_->text(item_), setup_.format);
+    const std::size_t next = line_ ? *line_ + lines : lines - 1;
+    if (lines_.empty() || next >= lines_.size())
+        throw Error(fmt::format("{}: no further line", place()));
+    line_ = next;
+    return debug_line_text(lines_[next]);
 }
 
 std::string DebugSession::move_by(std::ptrdiff_t rows) {
@@ -411,7 +427,14 @@ std::string DebugSession::stop_where(const std::string& argument) {
         std::string text;
         for (const DebugCondition& condition : conditions_)
             text += condition_text(condition) + "\n";
+        for (const std::string& where : lines_to_stop_at_)
+            text += where + "\n";
         return text.empty() ? "no break\n" : text;
+    }
+    if (const std::optional<std::string> where = line_of_break(argument)) {
+        static_cast<void>(debug_lines(run_->text(item_), setup_.format)); // or there is no text to stop in
+        lines_to_stop_at_.push_back(*where);
+        return fmt::format("break where this item comes to {}\n", *where);
     }
     DebugCondition condition = parse_condition(argument);
     std::vector<std::string> labels;
@@ -425,7 +448,7 @@ std::string DebugSession::stop_where(const std::string& argument) {
 }
 
 std::string DebugSession::go_on(const std::string&) {
-    if (conditions_.empty())
+    if (conditions_.empty() && lines_to_stop_at_.empty())
         throw Error("continue: there is no break; `break NAME < NUMBER` makes one");
     const DebugItem item = item_;
     return find_frame("break", [&]() -> std::string {
@@ -435,7 +458,15 @@ std::string DebugSession::go_on(const std::string&) {
         for (const DebugCondition& condition : conditions_)
             if (const std::optional<float> value = value_of(condition.label, rows_); value && holds(condition, *value))
                 return fmt::format("{}\n{} holds: {:.9g}\n", place(), condition_text(condition), *value);
-        return "";
+        if (!lines_to_stop_at_.empty())
+            lines_ = debug_lines(run_->text(item), setup_.format);
+        const auto stops = std::ranges::find_if(lines_, [&](const DebugLine& line) {
+            return std::ranges::find(lines_to_stop_at_, line.where) != lines_to_stop_at_.end();
+        });
+        if (stops == lines_.end())
+            return "";
+        line_ = static_cast<std::size_t>(stops - lines_.begin());
+        return place() + "\n" + debug_line_text(*stops);
     });
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crosscheck/report/debug_condition.hpp"
+#include "crosscheck/report/debug_lines.hpp"
 #include "crosscheck/report/debug_run.hpp"
 
 namespace lockstep {
@@ -57,6 +58,7 @@ class DebugSession {
     std::string show(const std::string& argument);
     std::string step(const std::string& argument);
     std::string back(const std::string& argument);
+    std::string line(const std::string& argument);
     std::string next(const std::string& argument);
     std::string why(const std::string& argument);
     std::string print(const std::string& argument);
@@ -98,11 +100,14 @@ class DebugSession {
     DebugSetup setup_;
     std::vector<std::string> changes_;
     std::vector<DebugCondition> conditions_;
+    std::vector<std::string> lines_to_stop_at_; ///< FILE:LINE
     std::unique_ptr<DebugRun> run_;
     DebugItem item_;
     std::vector<StepRow> rows_;
-    std::optional<std::size_t> row_; ///< the row the session stands at; none: before the first
-    int sourced_ = 0;                ///< how many files of commands are being obeyed, one from within the other
+    std::optional<std::size_t> row_;  ///< the row the session stands at; none: before the first
+    std::vector<DebugLine> lines_;    ///< that the item comes to; empty: nobody asked
+    std::optional<std::size_t> line_; ///< the line the session stands at; none: before the first
+    int sourced_ = 0;                 ///< how many files of commands are being obeyed, one from within the other
     bool ended_ = false;
 };
 

@@ -101,6 +101,12 @@ std::vector<StepRow> SystemDebugRun::rows(DebugItem item) {
     return item_rows(judged, item.index, run_.told(item.index), steps ? &*steps : nullptr);
 }
 
+ItemSteps SystemDebugRun::text(DebugItem item) {
+    come_to(item.group);
+    const std::optional<ItemSteps> steps = steps_of_item(run_.judged(), item.index);
+    return steps ? *steps : DebugRun::text(item);
+}
+
 std::vector<ItemVerdict> SystemDebugRun::verdicts(std::size_t group) {
     if (!runs(group))
         return {};

@@ -22,6 +22,7 @@ class SystemDebugRun final : public DebugRun {
     [[nodiscard]] std::string show(DebugItem item, NumberFormat format) override;
     [[nodiscard]] std::string why(DebugItem item, NumberFormat format) override;
     [[nodiscard]] std::vector<StepRow> rows(DebugItem item) override;
+    [[nodiscard]] ItemSteps text(DebugItem item) override;
     [[nodiscard]] std::vector<ItemVerdict> verdicts(std::size_t group) override;
     [[nodiscard]] States states(std::size_t group) override;
 

@@ -13,11 +13,6 @@
 namespace lockstep {
 namespace {
 
-/// What one statement gives a variable, or one decision.
-struct Line {
-    std::string where, name, value;
-};
-
 std::string value_of(const TextStep& step, NumberFormat format) {
     const Cell cell = cell_of(step);
     return cell.number ? number_text(*cell.number, format) : cell.text;
@@ -26,43 +21,17 @@ std::string value_of(const TextStep& step, NumberFormat format) {
 /// The name without its component.
 std::string variable_of(const std::string& name) { return name.substr(0, name.find_last_of(".[")); }
 
-/// Components of one variable that are set at one line are one; values without a name are left out.
-std::vector<Line> lines_of(const std::vector<TextStep>& steps, NumberFormat format) {
-    std::vector<Line> lines;
-    for (std::size_t k = 0; k < steps.size();) {
-        const TextStep& first = steps[k];
-        if (first.name.empty()) {
-            ++k;
-            continue;
-        }
-        std::size_t end = k + 1;
-        const auto goes_on = [&](const TextStep& next) {
-            return !first.compares && !next.compares && next.where == first.where && next.name != first.name &&
-                   first.name.find('.') != std::string::npos && variable_of(next.name) == variable_of(first.name) &&
-                   next.name > steps[end - 1].name;
-        };
-        std::string value = value_of(first, format);
-        while (end < steps.size() && goes_on(steps[end]))
-            value += ", " + value_of(steps[end++], format);
-        const bool is_whole = end - k > 1;
-        lines.push_back({first.where, is_whole ? variable_of(first.name) : first.name,
-                         is_whole ? "(" + value + ")" : std::move(value)});
-        k = end;
-    }
-    return lines;
-}
-
 /// Of what a loop comes by again and again the first few times and the last.
-std::vector<Line> without_turns(std::vector<Line> lines) {
+std::vector<TextLine> without_turns(std::vector<TextLine> lines) {
     constexpr int first_turns = 3;
     std::map<std::pair<std::string, std::string>, int> all, seen;
-    const auto key = [](const Line& line) {
+    const auto key = [](const TextLine& line) {
         const bool is_decision = line.value == "yes" || line.value == "no";
         return std::pair(line.where, is_decision ? std::string() : line.name);
     };
-    for (const Line& line : lines)
+    for (const TextLine& line : lines)
         ++all[key(line)];
-    std::erase_if(lines, [&](const Line& line) {
+    std::erase_if(lines, [&](const TextLine& line) {
         const int turn = ++seen[key(line)];
         return turn > first_turns && turn < all[key(line)];
     });
@@ -90,19 +59,45 @@ std::string end_text(const JudgedPass& pass, std::size_t item, const ItemSteps& 
 
 } // namespace
 
+std::vector<TextLine> text_lines(const ItemSteps& text, NumberFormat format) {
+    const std::vector<TextStep>& steps = text.steps;
+    std::vector<TextLine> lines;
+    for (std::size_t k = 0; k < steps.size();) {
+        const TextStep& first = steps[k];
+        if (first.name.empty()) {
+            ++k;
+            continue;
+        }
+        std::size_t end = k + 1;
+        const auto goes_on = [&](const TextStep& next) {
+            return !first.compares && !next.compares && next.where == first.where && next.name != first.name &&
+                   first.name.find('.') != std::string::npos && variable_of(next.name) == variable_of(first.name) &&
+                   next.name > steps[end - 1].name;
+        };
+        std::string value = value_of(first, format);
+        while (end < steps.size() && goes_on(steps[end]))
+            value += ", " + value_of(steps[end++], format);
+        const bool is_whole = end - k > 1;
+        lines.push_back({first.where, is_whole ? variable_of(first.name) : first.name,
+                         is_whole ? "(" + value + ")" : std::move(value)});
+        k = end;
+    }
+    return lines;
+}
+
 std::string text_steps_text(const JudgedPass& pass, std::size_t item, const ItemSteps& text, NumberFormat format) {
     if (!text.not_known.empty())
         return fmt::format("text      not run for it: {}\n", text.not_known);
     constexpr std::size_t most_lines = 200;
-    const std::vector<Line> lines = without_turns(lines_of(text.steps, format));
+    const std::vector<TextLine> lines = without_turns(text_lines(text, format));
     std::string all =
         fmt::format("text      {}, run by lockstep: {}\n\n", text.file, end_text(pass, item, text, format));
     std::size_t place = 0, name = 0;
-    for (const Line& line : lines) {
+    for (const TextLine& line : lines) {
         place = std::max(place, line.where.size());
         name = std::max(name, std::min(line.name.size(), narrowest_label));
     }
-    for (const Line& line : lines) {
+    for (const TextLine& line : lines) {
         if (&line == lines.data() + most_lines) {
             all += fmt::format("  ({} more)\n", lines.size() - most_lines);
             break;

@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -92,10 +93,14 @@ class StepMaker {
         settings_until(static_cast<std::uint32_t>(trace_.rows.size()));
         return std::move(steps_);
     }
+    /// That steps stand at.
+    [[nodiscard]] const std::set<std::uint32_t>& lines() const { return lines_; }
 
   private:
-    [[nodiscard]] std::string where(std::uint32_t step) const {
-        return program_.line_name(shown_line(program_, step).line);
+    [[nodiscard]] std::string where(std::uint32_t step) {
+        const std::uint32_t line = shown_line(program_, step).line;
+        lines_.insert(line);
+        return program_.line_name(line);
     }
     [[nodiscard]] const text::NamedCells* variable_of(const text::TraceSetting& one) const {
         return shown_line(program_, one.step).is_call ? nullptr : variable_at(program_, one.cell);
@@ -130,8 +135,17 @@ class StepMaker {
     const text::Trace& trace_;
     std::size_t next_ = 0; ///< setting
     std::map<std::uint32_t, std::uint32_t> held_;
+    std::set<std::uint32_t> lines_;
     std::vector<TextStep> steps_;
 };
+
+ItemSteps steps_made(const PassText& text, const text::Trace& trace, std::vector<std::uint32_t> made) {
+    StepMaker maker(text.program(), trace);
+    ItemSteps all{.file = text.source().files.front(), .steps = maker(), .made = std::move(made)};
+    for (const std::uint32_t line : maker.lines())
+        all.lines.emplace(text.program().line_name(line), line_text(text.source(), line));
+    return all;
+}
 
 class StepsOfText final : public PassSteps {
   public:
@@ -150,17 +164,13 @@ class StepsOfText final : public PassSteps {
         trace.notes_settings = true;
         if (at)
             if (auto made = dispatch.words_by(before, resource_, item, trace_alone(stage, *at, trace)))
-                return {.file = text.source().files.front(),
-                        .steps = StepMaker(text.program(), trace)(),
-                        .made = std::move(*made)};
+                return steps_made(text, trace, std::move(*made));
         // Another writes it, or none: all are run to see.
         const std::optional<std::uint32_t> by = dispatch.writer(resource_, item);
         if (!by)
             return {.file = {}, .not_known = "several invocations write it, or none"};
         trace_alone(stage, *by, trace);
-        return {.file = text.source().files.front(),
-                .steps = StepMaker(text.program(), trace)(),
-                .made = dispatch.words(before, resource_, item)};
+        return steps_made(text, trace, dispatch.words(before, resource_, item));
     } catch (const Error& error) {
         return {.file = {}, .not_known = error.what()};
     }

@@ -90,3 +90,27 @@ TEST_CASE("debug and the report page show the text's values too") {
     CAPTURE(outcome.out, outcome.err);
     CHECK_THAT(outcome.out, Contains("update.comp:41 m.next.y"));
 }
+
+TEST_CASE("debug goes by the shader's lines, shows them, and stops at one") {
+    if (!have_software_gl())
+        return;
+    const Outcome outcome =
+        run_lockstep({"debug", "data/scenes/dust/box.json", "--gl", software_gl()},
+                     {.standard_input = "frame 1\npass update\nitem 3\nline\nline\nline 4\n"
+                                        "break update.comp:41\nbreak update.comp:1000\nbreak\ncontinue\nquit\n"});
+    CAPTURE(outcome.out, outcome.err);
+    CHECK_THAT(outcome.out, Contains("update.comp:25: uint i = gl_GlobalInvocationID.x;\n    i = 3\n"));
+    CHECK_THAT(outcome.out, Contains("update.comp:26: if (i >= dustCount || dust[i].isAlive != 1)\n"
+                                     "    3 >= 100000 is no\n    1 != 1 is no\n"));
+    CHECK_THAT(outcome.out, Contains("break where this item comes to update.comp:41\n"));
+    CHECK_THAT(outcome.out, Contains("frame 2 update, grain 3\nupdate.comp:41: m.next = add("));
+}
+
+TEST_CASE("debug: a pass without a text has no lines to go by") {
+    if (!have_software_gl())
+        return;
+    const Outcome outcome =
+        run_lockstep({"debug", "data/scenes/lattice.json", "--particles", "100", "--gl", software_gl()},
+                     {.standard_input = "line\n"});
+    CHECK_THAT(outcome.err, Contains("no lines of a shader's text: this pass has no text that is run"));
+}

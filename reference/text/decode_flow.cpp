@@ -23,17 +23,21 @@ bool Decoder::flow(const Instruction& at) {
     switch (at.op) {
     case spv::OpLabel:
         block_ = w[0];
+        merge_ = none;
+        begins_loop_ = false;
         step_of_[w[0]] = static_cast<std::uint32_t>(p_.steps.size());
         maker_ = none;
         return true;
     case spv::OpBranch:
         leave({w[0]});
+        is_stated_ = is_stated_ && !begins_loop_; // that is the condition's line, which may be behind the body
         add(code::jump);
         jump_to(here(), &Step::a, w[0]);
         return true;
     case spv::OpBranchConditional: {
         leave({w[1], w[2]});
         add(code::branch).a = cell(w[0]);
+        note_decision(w, false);
         jump_to(here(), &Step::b, w[1]);
         jump_to(here(), &Step::c, w[2]);
         return true;
@@ -45,6 +49,7 @@ bool Decoder::flow(const Instruction& at) {
                 break;
             }
         Step& step = add(code::choose);
+        note_decision(w, true);
         step.a = cell(w[0]);
         step.n = static_cast<std::uint16_t>((w.size() - 2) / 2);
         step.d = static_cast<std::uint32_t>(p_.operands.size());
@@ -92,6 +97,38 @@ bool Decoder::flow(const Instruction& at) {
     default:
         return false;
     }
+}
+
+/// What the branch that was just made is in the text, as glslang writes it.
+void Decoder::note_decision(Words w, bool is_switch) {
+    if (module_.constant(w[0]) != nullptr)
+        return;
+    Decision made{.step = static_cast<std::uint32_t>(p_.steps.size()) - 1, .line = line_};
+    const auto ends_loop = [&](std::uint32_t label) { return loop_ends_.contains(label); };
+    if (is_switch) {
+        made.kind = Decision::Kind::cases;
+        made.has_default = w[1] != merge_;
+        made.is_signed = module_.type_of(w[0]).is_signed;
+    } else if (merge_ == none && (ends_loop(w[1]) || ends_loop(w[2]))) {
+        made.kind = step_of_.contains(w[1]) ? Decision::Kind::loop_again : Decision::Kind::loop;
+    } else if (merge_ != none && has_phi_[merge_]) {
+        // Where its left side is false, `&&` has that value; `||` asks for its opposite.
+        const auto& body = function_->body;
+        const auto label = std::ranges::find_if(
+            body, [&](const Instruction& one) { return one.op == spv::OpLabel && one.words[0] == merge_; });
+        const Words phi = label == body.end() ? Words() : (label + 1)->words;
+        for (std::size_t i = 2; i + 1 < phi.size(); i += 2) {
+            if (phi[i + 1] != block_)
+                continue;
+            const bool is_opposite = std::ranges::any_of(body, [&](const Instruction& one) {
+                return one.op == spv::OpLogicalNot && one.result == w[0] && one.words[2] == phi[i];
+            });
+            made.kind = phi[i] == w[0] ? Decision::Kind::left_of_and
+                        : is_opposite  ? Decision::Kind::left_of_or
+                                       : Decision::Kind::condition;
+        }
+    }
+    p_.decisions.push_back(made);
 }
 
 const Decoder::Address* Decoder::pointed(std::uint32_t id) const {
@@ -158,7 +195,7 @@ void Decoder::in_place(Words w, std::size_t number, const Callee& callee) {
     for (const Instruction& at : of.body)
         if (at.result != 0 && at.op != spv::OpVariable)
             cell_[at.result] = none;
-    const auto [function, block, line, own] = std::tuple(function_, block_, line_, p_.cells);
+    const auto [function, block, line, own, stated] = std::tuple(function_, block_, line_, p_.cells, is_stated_);
     function_ = &of;
     p_.in_place.push_back({line_, in_place_of_});
     in_place_of_ = static_cast<std::uint32_t>(p_.in_place.size());
@@ -174,6 +211,7 @@ void Decoder::in_place(Words w, std::size_t number, const Callee& callee) {
     function_ = function;
     block_ = block;
     line_ = line;
+    is_stated_ = stated;
     if (returned != none)
         take_result(w, number, returned, returned >= own);
 }

@@ -420,6 +420,7 @@ void Decoder::callee(const Function& of) {
 Step& Decoder::add(std::uint16_t op) {
     p_.steps.push_back({.op = op});
     p_.lines.push_back(line_);
+    p_.stated.push_back(is_stated_ ? 1 : 0);
     p_.precise.push_back(0);
     p_.in_place_of.push_back(in_place_of_);
     maker_ = none;
@@ -463,13 +464,19 @@ void Decoder::function(const Function& of) {
 
 void Decoder::instruction(const Instruction& at, std::size_t number) {
     line_ = at.line;
+    is_stated_ = at.has_line;
     switch (at.op) {
+    case spv::OpSelectionMerge:
+        merge_ = at.words[0];
+        return;
+    case spv::OpLoopMerge:
+        loop_ends_.insert(at.words[0]);
+        begins_loop_ = true;
+        return;
     case spv::OpNop:
     case spv::OpNoLine:
     case spv::OpLine:
     case spv::OpVariable:
-    case spv::OpSelectionMerge:
-    case spv::OpLoopMerge:
     case spv::OpUndef:
         if (at.op == spv::OpVariable && at.words.size() > 3) {
             const Address to = address_.at(at.words[1]);

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -138,6 +139,7 @@ class Decoder {
     /// Whether the variable at these cells stays as it is from an instruction to the last use of what it made.
     bool lasts(std::uint32_t id, std::size_t number, std::uint32_t first, std::uint32_t count);
     void jump_to(std::uint32_t step, std::uint32_t Step::*field, std::uint32_t label);
+    void note_decision(Words w, bool is_switch);
 
     const Module& module_;
     Program p_;
@@ -154,6 +156,10 @@ class Decoder {
     const Function* function_ = nullptr;
     std::uint32_t in_place_of_ = 0;                     ///< Program::in_place_of of the steps that are made
     std::uint32_t line_ = 0, block_ = 0, maker_ = none; ///< maker_: id that the last step made
+    bool is_stated_ = false;                            ///< Program::stated of the steps that are made
+    std::uint32_t merge_ = none;                        ///< label behind what the next branch parts; none: a loop's
+    bool begins_loop_ = false;                          ///< the block does
+    std::set<std::uint32_t> loop_ends_;                 ///< labels behind loops
 };
 
 } // namespace lockstep::text

@@ -116,7 +116,8 @@ bool run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
         parts.push_back(
             std::make_unique<Run>(values, program, memory, bindings, dispatch.groups, dispatch.most_branches));
     for (const std::unique_ptr<Run>& part : parts)
-        part->subgroup_size = dispatch.subgroup_size, part->are_quads = program.are_quads;
+        part->subgroup_size = dispatch.subgroup_size, part->are_quads = program.are_quads,
+        part->coverage = dispatch.coverage;
     std::vector<Invocation> waiting; // of one group, or of several that need nothing of each other
     const auto flush = [&] {
         if (waiting.empty())

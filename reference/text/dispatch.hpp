@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "reference/model/profile.hpp"
+#include "reference/text/coverage.hpp"
 #include "reference/text/invocation.hpp"
 #include "reference/text/memory.hpp"
 
@@ -18,9 +19,10 @@ struct Dispatch {
     bool is_watched = false;
     std::uint32_t most_branches = 50'000'000;
     std::uint32_t subgroup_size =
-        0;                      ///< that it runs with, at most lanes_at_once; 0: what the driver chooses is refused
-    Writers* writers = nullptr; ///< is told who wrote each word; null: nobody asks
-    bool is_reversed = false;   ///< the last group runs first
+        0;                        ///< that it runs with, at most lanes_at_once; 0: what the driver chooses is refused
+    Writers* writers = nullptr;   ///< is told who wrote each word; null: nobody asks
+    bool is_reversed = false;     ///< the last group runs first
+    Coverage* coverage = nullptr; ///< of the program: takes up where invocations come; null: nobody asks
 };
 
 /// An invocation by its number in a dispatch of so many groups.

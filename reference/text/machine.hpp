@@ -12,6 +12,7 @@
 
 #include "reference/model/error.hpp"
 #include "reference/text/cell.hpp"
+#include "reference/text/coverage.hpp"
 #include "reference/text/invocation.hpp"
 #include "reference/text/memory.hpp"
 #include "reference/text/program.hpp"
@@ -89,6 +90,7 @@ template <class R, int W> class Machine {
     /// Lanes in a row that are one subgroup, at most W; of a group's invocations in their order, from lane 0 on. 0: the
     /// run stands for a driver's, whose choices are not known.
     std::uint32_t subgroup_size = 0;
+    Coverage* coverage = nullptr; ///< of the program, or null: nobody asks
 
   private:
     static constexpr std::uint32_t first_look = 4096; ///< branches, after which loops are looked at
@@ -169,6 +171,12 @@ template <class R, int W> class Machine {
     [[noreturn]] void end_loop(std::string_view rule, Place at, std::string why) const;
     template <class To> void go_each(const To& to);
     void take_from_blocks(const Step& s);
+    [[nodiscard]] std::uint32_t case_of(const Step& s, std::uint32_t chosen) const;
+    void note_came() {
+        if (coverage != nullptr)
+            coverage->ways[at_] |= Coverage::came;
+    }
+    void note_ways(const Step& s);
 
     // Stages: machine_stage.hpp.
     void stage(const Step& s);

@@ -17,6 +17,7 @@ template <class R, int W> void Machine<R, W>::gather() {
     if (best == W)
         return;
     at_ = pc_[best];
+    note_came();
     for (std::uint32_t l = 0; l < lanes_; ++l)
         if (state_[l] == State::running && pc_[l] == at_)
             active_[count_++] = l;
@@ -104,6 +105,7 @@ template <class R, int W> void Machine<R, W>::go_to(std::uint32_t step) {
         look(step);
     if (together_) {
         at_ = step;
+        note_came();
         return;
     }
     active([&](Lane l) { pc_[l] = step; });
@@ -158,7 +160,34 @@ template <class R, int W> void Machine<R, W>::take_from_blocks(const Step& s) {
     at_ += s.b;
 }
 
+/// Which of the pairs of a switch; their count: its default.
+template <class R, int W> std::uint32_t Machine<R, W>::case_of(const Step& s, std::uint32_t chosen) const {
+    std::uint32_t k = 0;
+    while (k < s.n && p_.operands[s.d + 2 * k] != chosen)
+        ++k;
+    return k;
+}
+
+/// Of a branch or a switch, those that the lanes at this step are about to take.
+template <class R, int W> void Machine<R, W>::note_ways(const Step& s) {
+    const C* chosen = cell(s.a);
+    std::uint8_t& ways = coverage->ways[static_cast<std::size_t>(&s - p_.steps.data())];
+    constexpr std::uint8_t both = Coverage::was_true | Coverage::was_false;
+    if ((ways & both) == both)
+        return;
+    active([&](Lane l) {
+        if (s.op == code::branch)
+            ways |= chosen[l].word() != 0 ? Coverage::was_true : Coverage::was_false;
+        else if (const std::uint32_t k = case_of(s, chosen[l].word()); k < s.n)
+            coverage->cases[s.d + 2 * k] = 1;
+        else
+            ways |= Coverage::was_default;
+    });
+}
+
 template <class R, int W> void Machine<R, W>::flow(const Step& s) {
+    if (coverage != nullptr && (s.op == code::branch || s.op == code::choose))
+        note_ways(s);
     switch (s.op) {
     case code::jump:
         go_to(s.a);
@@ -171,10 +200,8 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
     case code::choose: {
         const C* chosen = cell(s.a);
         go_each([&](Lane l) {
-            for (std::uint32_t k = 0; k < s.n; ++k)
-                if (p_.operands[s.d + 2 * k] == chosen[l].word())
-                    return p_.operands[s.d + 2 * k + 1];
-            return s.b;
+            const std::uint32_t k = case_of(s, chosen[l].word());
+            return k < s.n ? p_.operands[s.d + 2 * k + 1] : s.b;
         });
         break;
     }

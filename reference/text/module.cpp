@@ -72,7 +72,9 @@ class ModuleReader {
 
     void instruction(spv::Op op, Words w) {
         if (op == spv::OpLine)
-            line_ = w[1];
+            line_ = w[1], has_line_ = true;
+        if (op == spv::OpLabel)
+            has_line_ = false;
         if (op == spv::OpFunction) {
             Function& f = made_.functions.emplace_back();
             f.id = checked_id(w[1]);
@@ -90,7 +92,7 @@ class ModuleReader {
             spv::HasResultAndType(op, &has_result, &has_type);
             if (has_result && has_type)
                 made_.ids[checked_id(w[1])].type = checked_id(w[0]);
-            made_.functions.back().body.push_back({op, line_, has_result && has_type ? w[1] : 0, w});
+            made_.functions.back().body.push_back({op, line_, has_result && has_type ? w[1] : 0, has_line_, w});
         } else {
             annotate(op, w);
             declare(op, w);
@@ -358,6 +360,7 @@ class ModuleReader {
 
     Module& made_;
     std::uint32_t line_ = 0;
+    bool has_line_ = false; ///< Instruction::has_line
     bool inside_ = false;
 };
 

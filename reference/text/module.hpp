@@ -95,6 +95,7 @@ struct Variable {
 struct Instruction {
     spv::Op op = spv::OpNop;
     std::uint32_t line = 0, result = 0;   ///< result: id of a value that it makes; 0: it makes none
+    bool has_line = false;                ///< its block says the line; else it is that of a block before
     std::span<const std::uint32_t> words; ///< operands
 };
 

@@ -167,10 +167,26 @@ struct BuiltInInput {
     std::uint32_t cell = 0, cells = 0;
 };
 
+/// A condition of the text by which invocations part, or a switch. Those of constants are none.
+struct Decision {
+    enum class Kind : std::uint8_t {
+        condition, ///< of an `if`, or of a `?:` that leaves one side out
+        loop,
+        loop_again, ///< asked behind the loop's body
+        left_of_and,
+        left_of_or, ///< of its opposite
+        cases
+    };
+    std::uint32_t step = 0, line = 0;
+    Kind kind = Kind::condition;
+    bool has_default = false, is_signed = false; ///< of a switch
+};
+
 /// A decoded shader.
 struct Program {
     std::vector<Step> steps;
     std::vector<std::uint32_t> lines;  ///< of each step
+    std::vector<std::uint8_t> stated;  ///< of each step: the text has a statement there, in that line
     std::vector<std::uint8_t> precise; ///< of each step: nothing fuses or reorders it (NoContraction)
     /// Of each step that a function's body makes in the place of its call: the call's number, from 1, in in_place; 0:
     /// none.
@@ -179,6 +195,7 @@ struct Program {
         std::uint32_t line = 0, outer = 0; ///< of the call, and what it is itself in the place of
     };
     std::vector<InPlaceCall> in_place;
+    std::vector<Decision> decisions;     ///< in the order of their steps
     std::vector<std::uint32_t> operands; ///< further ones of steps
     std::vector<Leaf> leaves;
     std::uint32_t cells = 0, shared = 0;         ///< how many

@@ -140,6 +140,7 @@ StageResult run_stage(const Program& program, const StageRun& run, const Binding
     Run machine(values, program, memory, bindings, {1, 1, 1}, run.most_branches);
     machine.are_quads = run.are_quads;
     machine.subgroup_size = run.subgroup_size;
+    machine.coverage = run.coverage;
     StageResult result;
     for (const StageVariable& output : program.stage_outputs)
         if (run.keeps_outputs)

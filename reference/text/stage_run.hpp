@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/model/profile.hpp"
+#include "reference/text/coverage.hpp"
 #include "reference/text/invocation.hpp"
 #include "reference/text/memory.hpp"
 
@@ -32,6 +33,7 @@ struct StageRun {
     bool keeps_outputs = true;                ///< false: StageResult stays empty
     /// Which run of each lanes_at_once, by the first; empty: all. Those that do not are in no StageResult.
     std::function<bool(std::uint32_t first)> wants = {};
+    Coverage* coverage = nullptr; ///< as Dispatch::coverage
 };
 
 /// What a stage made.

@@ -67,6 +67,7 @@ struct BoundText {
     bool is_watched = false;
     std::uint32_t subgroup_size = 0;
     std::uint32_t most_branches = 50'000'000;
+    text::Coverage* coverage = nullptr;
 };
 
 struct TextKernel : BoundText {
@@ -77,7 +78,8 @@ struct TextKernel : BoundText {
                            {.groups = groups,
                             .is_watched = is_watched,
                             .most_branches = most_branches,
-                            .subgroup_size = subgroup_size},
+                            .subgroup_size = subgroup_size,
+                            .coverage = coverage},
                            bindings(), profile, findings);
     }
 };

@@ -11,8 +11,9 @@ struct TextStage : BoundText {
     TextStage(Stage stage, const std::string& text) : BoundText(stage, text, "stage") {}
 
     text::StageResult run(std::uint32_t invocations) {
-        return text::run_stage(program, {invocations, inputs, are_quads, is_watched, most_branches, subgroup_size},
-                               bindings(), named_profile("llvmpipe"), findings);
+        text::StageRun run{invocations, inputs, are_quads, is_watched, most_branches, subgroup_size};
+        run.coverage = coverage;
+        return text::run_stage(program, run, bindings(), named_profile("llvmpipe"), findings);
     }
     /// "LINE rule", and what it is of.
     [[nodiscard]] std::vector<std::string> found() const {

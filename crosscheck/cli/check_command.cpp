@@ -483,6 +483,7 @@ Verb check_command() {
                                       "resync: each frame's step alone; free: both run on by themselves"));
     add_legal_option(verb, options->legal);
     add_pass_options(verb, options->rules);
+    add_cover_option(verb, options->rules);
     verb.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
     verb.add(path_option("--junit", "FILE", options->junit, "write the verdict as JUnit"));
     verb.add(path_option("--hashes", "FILE", options->hashes, "write both sides' state hash of every frame"));
@@ -500,7 +501,7 @@ Verb check_command() {
     verb.footer =
         "Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "
         "without --allow-undefined, any difference in free mode, no hit with --require-hits, or less power than "
-        "--power-at-least; 2 could not run; "
+        "--power-at-least, or less of the shaders' texts run than --cover-at-least; 2 could not run; "
         "130 ended by Ctrl-C, with a verdict on the frames before.\n"
         "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper";
     verb.run = [options](const Call& call) {
@@ -529,6 +530,9 @@ Verb check_command() {
                                 options->frames.text(), name_of(*system)));
             return check_system(*system, options->run, system_check(*options));
         }
+        if (options->rules.cover_at_least > 0.0)
+            throw Error("check: --cover-at-least does not go with a scene of system collision, whose shaders are not "
+                        "run by their texts");
         if (options->trace.empty() && options->shard.is_asked())
             throw Error(
                 fmt::format("{}: shares out the frames of a recording (lockstep record, check --trace FILE), or the "

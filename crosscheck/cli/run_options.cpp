@@ -102,7 +102,7 @@ void check_scene_or_trace(const Call& call, const RunOptions& options, const std
     if (!options.scene.empty())
         throw Error(fmt::format("{}: a scene does not go with --trace, which brings its own", call.verb.name));
     for (const char* name : {"--particles", "--preset", "--set", "--gl", "--shaders", "--allow-unused", "--images",
-                             "--render", "--no-render", "--werror-shaders"})
+                             "--render", "--no-render", "--werror-shaders", "--cover-at-least"})
         if (call.has(name))
             throw Error(
                 fmt::format("{}: {} goes with a scene that is run here, not with --trace", call.verb.name, name));

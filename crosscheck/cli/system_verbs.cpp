@@ -61,13 +61,12 @@ struct DrawnFrame {
 
 /// What the texts of the user's own shaders say.
 void add_text_notes(RunDescription& about, const ShadedSystem& of, const OwnTexts& own, const RunOptions& run,
-                    SystemSide& side, const KnownOperations& known, CheckReport& report) {
+                    SystemSide& side, const KnownOperations& known, const PassRules& rules, CheckReport& report) {
     for (std::string& note : driver_notes(of, run.shaders, side, known, report))
         about.notes.push_back(std::move(note));
-    if (!about.shaders || run.shaders.empty())
-        return;
-    for (std::string& note : text_notes(of, {own, *about.shaders, run.shaders, run.reference}, side, known, report))
-        about.notes.push_back(std::move(note));
+    if (about.shaders && !run.shaders.empty())
+        add_notes(about, text_notes(of, {own, *about.shaders, run.shaders, run.reference}, side, known, report,
+                                    covered_runs(rules)));
 }
 
 /// From the state that the GPU's frames left.
@@ -96,7 +95,7 @@ DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const R
     judged.first = first_item_words(picture.system, *judged.report);
     judged.about.shaders = input.shaders();
     add_text_notes(judged.about, made_here.shaded(scene.arithmetic), made_here.own_texts, run, drawn, *options.known,
-                   *judged.report);
+                   asked.rules, *judged.report);
     return judged;
 }
 
@@ -200,17 +199,20 @@ std::string explain_drawn(SystemInput& input, const RunOptions& run, const Syste
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 24> options{
-        "--trace",        "--power",     "--power-at-least", "--json",
-        "scene",          "--particles", "--preset",         "--set",
-        "--threads",      "--gl",        "--shaders",        "--frames",
-        "--allow-unused", "--mode",      "--legal",          "--quiet",
-        "--no-render",    "--hashes",    "--images",         "--allow-undefined",
-        "--report",       "--hex",       "--werror-shaders", "--reference"};
+    static constexpr std::array<std::string_view, 25> options{
+        "--trace",         "--power",     "--power-at-least", "--json",
+        "scene",           "--particles", "--preset",         "--set",
+        "--threads",       "--gl",        "--shaders",        "--frames",
+        "--allow-unused",  "--mode",      "--legal",          "--quiet",
+        "--no-render",     "--hashes",    "--images",         "--allow-undefined",
+        "--report",        "--hex",       "--werror-shaders", "--reference",
+        "--cover-at-least"};
     return options;
 }
 
 int check_system(const RegisteredSystem& system, RunOptions run, const SystemCheck& asked) {
+    if (asked.rules.cover_at_least > 0.0 && run.shaders.empty())
+        throw Error("check: --cover-at-least goes with shaders of one's own; expected --shaders DIR");
     SystemInput input(system, run, asked.trace, asked.render ? DrawnStages::vertex : DrawnStages::none);
     const System& twins = input.system();
     if (!asked.images.empty() && !input.scene().has_pictures())
@@ -260,10 +262,12 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     for (const std::vector<std::string>& some : {input.left_open(side.describe().profile), run_to_run_notes(two_runs)})
         about.notes.insert(about.notes.end(), some.begin(), some.end());
     if (!input.is_recorded())
-        add_text_notes(about, input.shaded(), input.own_texts(), run, side, *options.known, report);
+        add_text_notes(about, input.shaded(), input.own_texts(), run, side, *options.known, asked.rules, report);
     for (std::string& note :
          reference_notes(input.shaded(), input.reference_texts(), side.describe().profile, report.frames))
         about.notes.push_back(std::move(note));
+    about.coverage.insert(about.coverage.end(), drawn.about.coverage.begin(), drawn.about.coverage.end());
+    ask_coverage(report, coverage_count(about.coverage), asked.rules.cover_at_least);
     if (input.is_recorded() && run.frames < input.recorded_frames())
         about.notes.push_back(
             fmt::format("{} of the {} frames recorded were compared", run.frames, input.recorded_frames()));

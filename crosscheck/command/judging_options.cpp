@@ -23,6 +23,12 @@ void add_pass_options(Verb& verb, PassRules& rules) {
                           "fail where the run would have shown fewer of the mistakes with names: 95%, 0.95"));
 }
 
+void add_cover_option(Verb& verb, PassRules& rules) {
+    verb.add(share_option("--cover-at-least", rules.cover_at_least,
+                          "fail where fewer of the lines and branch sides of the shaders' texts were run, in all "
+                          "frames as far as that is quick: 95%, 0.95"));
+}
+
 void add_werror_option(Verb& verb) {
     verb.add(flag("--werror-shaders", shader_warnings_are_errors(),
                   "stop where the driver warns of a shader, as of a variable that is never set"));

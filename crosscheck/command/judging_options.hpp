@@ -12,6 +12,9 @@ void add_legal_option(Verb& verb, Legal& legal);
 /// --allow-undefined, --require-hits and --power-at-least.
 void add_pass_options(Verb& verb, PassRules& rules);
 
+/// --cover-at-least.
+void add_cover_option(Verb& verb, PassRules& rules);
+
 /// --werror-shaders: shader_warnings_are_errors(), of the whole process.
 void add_werror_option(Verb& verb);
 /// " --werror-shaders" where it was given.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/text/text_coverage.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -67,6 +68,19 @@ void ask_power(CheckReport& report, double at_least) {
         report.failures.push_back(fmt::format(
             "this run would have shown {} of {} known mistakes ({:.1f} %), expected at least {:.4g} %",
             report.power.seen(), report.power.mistakes.size(), 100.0 * report.power.share(), 100.0 * at_least));
+}
+
+void ask_coverage(CheckReport& report, const CoverageCount& covered, double at_least) {
+    if (at_least <= 0.0)
+        return;
+    if (covered.lines == 0)
+        throw Error("--cover-at-least: no text of a shader of one's own was run; expected a compute stage, or a vertex "
+                    "stage that is captured, in GLSL, that is interpreted (--shaders DIR)");
+    report.covered = covered.share();
+    if (report.covered < at_least)
+        report.failures.push_back(fmt::format("the shaders' texts were covered to {:.1f} % ({}), expected at least "
+                                              "{:.4g} %",
+                                              100.0 * report.covered, coverage_words(covered), 100.0 * at_least));
 }
 
 void ask_hits(CheckReport& report, const PassRules& rules) {

@@ -88,6 +88,7 @@ struct CheckReport {
     std::vector<std::string> failures;
     /// Which part of a run this is, and what asked for that; empty: the whole run.
     std::string part;
+    double covered = 1.0; ///< the share of the shaders' texts that was covered, where that was asked for
     std::vector<std::string> without_effect; ///< passes that left what was there, in all frames
 
     /// The run was stopped before its end; a verdict on the frames before that.
@@ -101,13 +102,14 @@ struct PassRules {
     bool allow_undefined = false;
     bool require_hits = false;   ///< a run in which nothing collided fails
     double power_at_least = 0.0; ///< one that would have shown a smaller share of the mistakes with names, too
+    double cover_at_least = 0.0; ///< one that covered a smaller share of the user's own shaders' texts
 };
 
 [[nodiscard]] inline bool passes(const CheckReport& report, const PassRules& rules = {}) {
     const bool fits = report.verdict == Verdict::agree || report.verdict == Verdict::legal ||
                       (report.verdict == Verdict::undefined && rules.allow_undefined);
     return fits && !report.partial() && !(rules.require_hits && report.hits == 0) &&
-           report.power.share() >= rules.power_at_least;
+           report.power.share() >= rules.power_at_least && report.covered >= rules.cover_at_least;
 }
 
 /// Counts what a comparison of a frame found; there may be several of a frame.
@@ -122,6 +124,11 @@ void number_frame(CheckReport& report, int frame);
 /// A run that would have shown a smaller share of the known mistakes fails. Throws Error in free mode, which judges no
 /// step.
 void ask_power(CheckReport& report, double at_least);
+
+struct CoverageCount;
+
+/// A run that covered a smaller share of the shaders' texts fails. Throws Error where none was run.
+void ask_coverage(CheckReport& report, const CoverageCount& covered, double at_least);
 
 /// Where hits are required, a run in which nothing collided fails.
 void ask_hits(CheckReport& report, const PassRules& rules);

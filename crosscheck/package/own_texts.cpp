@@ -1,5 +1,7 @@
 #include "crosscheck/package/own_texts.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -61,16 +63,17 @@ void SystemTexts::take_shaders(const std::filesystem::path& folder, const std::f
     show_texts(of_, folder);
 }
 
-std::vector<std::string> SystemTexts::notes(SystemSide& side, const KnownOperations& known, CheckReport& report) const {
-    std::vector<std::string> notes = references_.lines;
-    if (own_)
-        for (std::string& note : driver_notes(of_, own_->folder, side, known, report))
-            notes.push_back(std::move(note));
-    if (own_)
-        for (std::string& note : text_notes(of_, *own_, side, known, report))
-            notes.push_back(std::move(note));
+TextNotes SystemTexts::notes(SystemSide& side, const KnownOperations& known, CheckReport& report,
+                             CoveredRuns covered) const {
+    TextNotes notes{.lines = references_.lines, .coverage = {}};
+    if (own_) {
+        std::ranges::move(driver_notes(of_, own_->folder, side, known, report), std::back_inserter(notes.lines));
+        TextNotes of_own = text_notes(of_, *own_, side, known, report, covered);
+        std::ranges::move(of_own.lines, std::back_inserter(notes.lines));
+        notes.coverage = std::move(of_own.coverage);
+    }
     for (std::string& note : reference_notes(of_, references_.texts, side.describe().profile, report.frames))
-        notes.push_back(std::move(note));
+        notes.lines.push_back(std::move(note));
     return notes;
 }
 

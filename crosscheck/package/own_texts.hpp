@@ -31,8 +31,8 @@ class SystemTexts {
     void take_shaders(const std::filesystem::path& folder, const std::filesystem::path& reference);
 
     /// What they say of a check.
-    [[nodiscard]] std::vector<std::string> notes(SystemSide& side, const KnownOperations& known,
-                                                 CheckReport& report) const;
+    [[nodiscard]] TextNotes notes(SystemSide& side, const KnownOperations& known, CheckReport& report,
+                                  CoveredRuns covered = CoveredRuns::watched) const;
 
   private:
     ShadedSystem of_;

@@ -1,12 +1,18 @@
 #include "crosscheck/package/shader_findings.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/text/covered_text.hpp"
 #include "crosscheck/text/pass_text.hpp"
 #include "reference/model/error.hpp"
 
@@ -37,17 +43,61 @@ std::string line_of(const text::Program& program, const text::Finding& found) {
     return line;
 }
 
-/// One compute stage of a scene and what was found in it so far.
+/// One stage of a scene, and what was found in it so far.
 struct WatchedText {
     std::shared_ptr<const PassText> text;
     text::Findings findings;
+    text::Coverage coverage;
+    std::size_t left = 0;       ///< invocations that may run for the coverage alone
+    int sampled = 0, whole = 0; ///< frames of which groups ran, or all
 };
+
+/// Runs all of a dispatch for the coverage, unless it takes more than is left of the text's invocations.
+void run_plainly(WatchedText& text, const PassInput& in, const Profile& profile, SystemState& after) {
+    const std::size_t items = text.text->items(in);
+    if (text.left < items || std::ranges::any_of(text.findings.all(), text::is_endless)) {
+        text.left = 0;
+        return;
+    }
+    text.left -= items;
+    text::Findings ignored;
+    try {
+        text.text->run(in, profile, after, ignored, {.coverage = &text.coverage});
+        ++text.whole;
+    } catch (const text::DoesNotEnd&) {
+        text.left = 0;
+    }
+}
+
+/// By stage: a shader of several passes is one.
+std::vector<TextCoverage> coverage_of(const std::vector<WatchedText>& texts, const std::filesystem::path& folder) {
+    std::vector<TextCoverage> all;
+    for (const WatchedText& one : texts) {
+        if (one.text == nullptr || one.sampled + one.whole == 0)
+            continue;
+        TextCoverage made = covered_text(one.text->source(), one.text->program(), one.coverage, folder);
+        if (made.lines.empty())
+            continue;
+        const std::string frames = counted(static_cast<std::size_t>(one.whole > 0 ? one.whole : one.sampled), "frame");
+        made.in = one.whole > 0 ? frames : "some groups of " + frames;
+        if (const auto known = std::ranges::find(all, made.stage, &TextCoverage::stage); known != all.end())
+            known->add(made);
+        else
+            all.push_back(std::move(made));
+    }
+    return all;
+}
 
 } // namespace
 
-std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts& own,
-                                         const std::optional<std::filesystem::path>& shaders, const Profile& profile,
-                                         int frames) {
+void add_notes(RunDescription& run, TextNotes notes) {
+    std::ranges::move(notes.lines, std::back_inserter(run.notes));
+    std::ranges::move(notes.coverage, std::back_inserter(run.coverage));
+}
+
+TextNotes shader_findings(const ShadedSystem& of, const OwnTexts& own,
+                          const std::optional<std::filesystem::path>& shaders, const Profile& profile, int frames,
+                          CoveredRuns covered) {
     const System& system = of.system;
     const ShaderFolders folders = shader_folders(shaders.value_or(""), system.schema.system);
     std::vector<WatchedText> texts(of.passes.size());
@@ -59,22 +109,41 @@ std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts&
                                     ? own[p]
                                     : std::make_shared<const PassText>(system.schema, of.passes[p],
                                                                        written_by(system, p), folders, of.arithmetic);
+                texts[p].coverage = text::Coverage(texts[p].text->program());
+                if (shaders)
+                    texts[p].left = covered == CoveredRuns::all ? 2'000'000 : 100'000;
             } catch (const Error& error) {
                 lines.push_back(fmt::format("text of {}.{} not looked into: {}", of.passes[p].name,
                                             of.passes[p].stage == Stage::compute ? "comp" : "vert", error.what()));
             }
     if (std::none_of(texts.begin(), texts.end(), [](const WatchedText& one) { return one.text != nullptr; }))
-        return lines;
+        return {lines, {}};
     ReferenceRun run(system, profile);
     const int looked_at = examined_frames(system, frames);
-    for (int frame = 0; frame < looked_at; ++frame)
+    const auto goes_on = [](const WatchedText& one) { return one.text != nullptr && one.left > 0; };
+    const auto is_asked = [&](int frame) {
+        return covered == CoveredRuns::all && frame < frames && std::ranges::any_of(texts, goes_on);
+    };
+    for (int frame = 0; frame < looked_at || is_asked(frame); ++frame)
         for (std::size_t p = 0; p < of.passes.size(); ++p) {
             WatchedText& watched = texts[p];
             if (watched.text != nullptr && system.passes[p]->runs(frame)) {
                 const SystemView view = run.state().view();
+                const PassInput in{view, frame};
                 SystemState after = run.state();
-                watched.text->run({view, frame}, profile, after, watched.findings,
-                                  {.wants = is_sampled, .is_watched = true});
+                bool is_whole = true;
+                const auto wants = [&](const std::array<std::uint32_t, 3>& group) {
+                    const bool is = is_sampled(group);
+                    is_whole = is_whole && is;
+                    return is;
+                };
+                if (frame < looked_at) {
+                    watched.text->run(in, profile, after, watched.findings,
+                                      {.wants = wants, .is_watched = true, .coverage = &watched.coverage});
+                    ++(is_whole ? watched.whole : watched.sampled);
+                }
+                if (watched.left > 0 && (frame >= looked_at || !is_whole))
+                    run_plainly(watched, in, profile, after = run.state());
             }
             run.step_pass(p, frame);
         }
@@ -83,14 +152,15 @@ std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts&
             lines.push_back(line_of(watched.text->program(), found));
     std::sort(lines.begin(), lines.end());
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-    return lines;
+    return {std::move(lines), shaders ? coverage_of(texts, *shaders) : std::vector<TextCoverage>()};
 }
 
 std::vector<std::string> reference_notes(const ShadedSystem& of, const OwnTexts& references, const Profile& profile,
                                          int frames) {
     std::vector<std::string> notes;
     if (!references.empty())
-        for (const std::string& found : shader_findings(of, references, std::nullopt, profile, frames))
+        for (const std::string& found :
+             shader_findings(of, references, std::nullopt, profile, frames, CoveredRuns::watched).lines)
             notes.push_back("in the reference: " + found);
     return notes;
 }
@@ -110,13 +180,13 @@ void note_race(CheckReport& report, const std::vector<std::string>& findings) {
 
 } // namespace
 
-std::vector<std::string> text_notes(const ShadedSystem& of, const OwnShaders& own, SystemSide& side,
-                                    const KnownOperations& known, CheckReport& report) {
-    std::vector<std::string> notes = shader_findings(of, own.texts, own.folder, side.describe().profile, report.frames);
-    note_race(report, notes);
+TextNotes text_notes(const ShadedSystem& of, const OwnShaders& own, SystemSide& side, const KnownOperations& known,
+                     CheckReport& report, CoveredRuns covered) {
+    TextNotes notes = shader_findings(of, own.texts, own.folder, side.describe().profile, report.frames, covered);
+    note_race(report, notes.lines);
     for (const std::string& line :
          lines_without_counterpart(of, own.texts, own.use, own.reference, side, known, report))
-        notes.push_back("without a counterpart in the reference: " + line);
+        notes.lines.push_back("without a counterpart in the reference: " + line);
     return notes;
 }
 

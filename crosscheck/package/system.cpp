@@ -82,8 +82,7 @@ MatchResult match_system(SystemSide& gpu, const System& system, const SystemMatc
     RunDescription run =
         describe_run(system, side, check_options, options.repeat.empty() ? this_program({}) : options.repeat);
     if (texts)
-        for (std::string& note : texts->notes(gpu, *check_options.known, report))
-            run.notes.push_back(std::move(note));
+        add_notes(run, texts->notes(gpu, *check_options.known, report));
     ask_power(report, options.power_at_least);
     const bool passed = passes(report, {options.allow_undefined, false, options.power_at_least});
     return {std::move(report), std::move(run), passed};

@@ -153,8 +153,8 @@ int check_verb(const OwnProgram& program, const Options& options) {
         run.shaders_untold = "recorded: " + gpu.recording()->info().shaders;
         run.notes = gpu.recording()->warnings();
     }
-    for (std::string& note : gpu.texts().notes(*gpu, *check.known, report))
-        run.notes.push_back(std::move(note));
+    add_notes(run, gpu.texts().notes(*gpu, *check.known, report, covered_runs(options.rules)));
+    ask_coverage(report, coverage_count(run.coverage), options.rules.cover_at_least);
     const auto explain_line = [&](const std::vector<std::string>& words) {
         std::vector<std::string> explain{"explain"};
         explain.insert(explain.end(), words.begin(), words.end());
@@ -272,7 +272,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     const auto running = [&program, options](int (*run)(const OwnProgram&, const Options&)) {
         return [&program, options, run](const Call& call) {
             if (!options->trace.empty())
-                for (const char* option : {"--gl", "--shaders", "--werror-shaders"})
+                for (const char* option : {"--gl", "--shaders", "--werror-shaders", "--cover-at-least"})
                     if (call.has(option))
                         throw Error(fmt::format("{}: {} goes with shaders that run here, not with --trace",
                                                 call.verb.name, option));
@@ -294,6 +294,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     check.add(flag("--allow-undefined", options->rules.allow_undefined, "do not fail on what GL leaves open"));
     check.add(share_option("--power-at-least", options->rules.power_at_least,
                            "fail where the run would have shown fewer of the mistakes with names: 95%, 0.95"));
+    add_cover_option(check, options->rules);
     check.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
     check.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
     check.add(path_option("--hashes", "FILE", options->hashes, "write both sides' state hash of every frame"));

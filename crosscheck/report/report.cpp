@@ -267,9 +267,12 @@ std::string render_line(const CheckReport& report, const RunDescription& run) {
 }
 
 std::string pass_options_text(const PassRules& rules) {
-    return fmt::format("{}{}{}", rules.allow_undefined ? " --allow-undefined" : "",
-                       rules.require_hits ? " --require-hits" : "",
-                       rules.power_at_least > 0.0 ? fmt::format(" --power-at-least {}", rules.power_at_least) : "");
+    const auto share = [](std::string_view option, double at_least) {
+        return at_least > 0.0 ? fmt::format(" {} {}", option, at_least) : std::string();
+    };
+    return fmt::format("{}{}{}{}", rules.allow_undefined ? " --allow-undefined" : "",
+                       rules.require_hits ? " --require-hits" : "", share("--power-at-least", rules.power_at_least),
+                       share("--cover-at-least", rules.cover_at_least));
 }
 
 std::string verdict_words(const CheckReport& r) {
@@ -324,6 +327,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
             line("", detail);
     if (!r.without_effect.empty())
         line("no effect", fmt::format("in {}: {}", frames_text(r), fmt::join(r.without_effect, ", ")));
+    for (const TextCoverage& one : run.coverage)
+        line("coverage", coverage_text(one));
     for (const std::string& note : run.notes)
         line("note", note);
     line("verdict", verdict_line(r));
@@ -457,6 +462,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"hash", {{"reference", hash_text(r.reference_hash)}, {"gpu", hash_text(r.gpu_hash)}}},
                 {"verdicts", r.verdicts ? verdict_json(*r.verdicts, r.schema, extents(r)) : json()},
                 {"repeat", run.repeat},
+                {"coverage", coverage_json(run.coverage)},
                 {"notes", run.notes},
                 {"explain", run.explain.empty() ? json() : json(run.explain)}};
     if (run.timed)

@@ -7,6 +7,7 @@
 
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/report/value_text.hpp"
+#include "crosscheck/text/text_coverage.hpp"
 #include "gpu/shader_use.hpp"
 
 namespace lockstep {
@@ -27,6 +28,7 @@ struct RunDescription {
     bool draws = true;            ///< a picture for people, which can be compared
     bool timed = true;            ///< else without times: of a recording the same check gives the same report
     NumberFormat numbers = NumberFormat::decimal;
+    std::vector<TextCoverage> coverage = {}; ///< of the texts of the user's own shaders
 };
 
 /// "AGREE", "LEGAL", ...

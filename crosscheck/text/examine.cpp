@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/text/covered_text.hpp"
 #include "crosscheck/text/made_up_inputs.hpp"
 #include "crosscheck/text/made_up_races.hpp"
 #include "crosscheck/text/stage_text.hpp"
@@ -86,6 +87,22 @@ std::vector<std::string> sized_names(const text::Program& program) {
     return names;
 }
 
+/// Of the text as it is compiled; what is looked into may have other steps, for operations of constants.
+TextCoverage coverage_of(const Examination& of, const StageText& opened, const WatchedRun& watched) {
+    const std::filesystem::path folder = of.file.parent_path();
+    const StageText stage = read_stage(of.file, of.defines);
+    if (stage.module.words != opened.module.words && !is_endless(watched.findings)) {
+        Examination plain = of;
+        plain.is_watched = false;
+        const bool is_compute = stage.program.stage == spv::ExecutionModelGLCompute;
+        text::StageRun run = is_compute ? text::StageRun{} : made_up_run(plain, stage.program);
+        run.is_watched = false;
+        const WatchedRun again = run_watched(plain, stage.program, made_up_world(plain, stage.program), run);
+        return covered_text(*stage.source, stage.program, again.coverage, folder);
+    }
+    return covered_text(*opened.source, opened.program, watched.coverage, folder);
+}
+
 } // namespace
 
 ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
@@ -128,6 +145,8 @@ ExaminationResult examine(const Examination& of, const MeasuredGl* gl) {
         result.group_size = program.invocations();
     result.not_given = not_given(of, program);
     result.findings = named(watched.findings, program);
+    result.coverage = coverage_of(of, opened, watched);
+    result.coverage.in = result.ran;
     const auto made_up = made_up_races(of, program, watched.findings);
     for (std::size_t k = 0; k < result.findings.size(); ++k)
         for (const auto& [name, races] : made_up)
@@ -144,6 +163,8 @@ std::string ExaminationResult::text(const Examination& of) const {
                     findings.empty() ? "no" : std::to_string(findings.size()), findings.size() == 1 ? "" : "s", ran);
     for (const NamedFinding& one : findings)
         all += one.text();
+    if (!coverage.lines.empty())
+        all += fmt::format("coverage  {}\n", coverage_text(coverage));
     if (!not_given.empty())
         all += fmt::format("0 for want of --uniform: {}\n", fmt::join(not_given, ", "));
     if (gpu)
@@ -164,6 +185,8 @@ nlohmann::json ExaminationResult::json(const Examination& of) const {
     }
     for (const NamedFinding& one : findings)
         all["findings"].push_back(one.json());
+    if (!coverage.lines.empty())
+        all["coverage"] = coverage_json({&coverage, 1});
     if (gpu)
         all["gl"] = gpu->json();
     if (reference)

@@ -10,6 +10,7 @@
 #include "crosscheck/text/gpu_comparison.hpp"
 #include "crosscheck/text/named_finding.hpp"
 #include "crosscheck/text/text_comparison.hpp"
+#include "crosscheck/text/text_coverage.hpp"
 
 namespace lockstep {
 
@@ -18,6 +19,7 @@ struct ExaminationResult {
     std::uint32_t group_size = 0;       ///< of a compute stage
     std::vector<std::string> not_given; ///< uniforms, which are 0
     std::vector<NamedFinding> findings;
+    TextCoverage coverage; ///< without lines of a module, which has no text
     std::optional<GpuComparison> gpu;
     std::optional<TextComparison> reference;
 

@@ -334,14 +334,19 @@ void PassText::run_into(const Input& input, const Profile& profile, text::Findin
     for (std::size_t i = 0; i < bindings.images.size(); ++i)
         bindings.images[i].words = to[bindings.blocks.size() + i];
     if (!is_vertex()) {
-        text::run_dispatch(
-            program_, {.groups = input.groups, .wants = how.wants, .is_watched = how.is_watched, .writers = writers},
-            bindings, profile, findings);
+        text::run_dispatch(program_,
+                           {.groups = input.groups,
+                            .wants = how.wants,
+                            .is_watched = how.is_watched,
+                            .writers = writers,
+                            .coverage = how.coverage},
+                           bindings, profile, findings);
         return;
     }
-    if (how.is_watched) {
+    if (how.is_watched || how.coverage != nullptr) {
         text::StageRun run = input.vertices;
-        run.is_watched = true;
+        run.is_watched = how.is_watched;
+        run.coverage = how.coverage;
         run.keeps_outputs = false;
         if (how.wants)
             run.wants = [&](std::uint32_t first) { return how.wants({first / text::lanes_at_once, 0, 0}); };

@@ -45,11 +45,12 @@ class PassText {
     /// An item, one invocation: a vertex.
     [[nodiscard]] bool is_vertex() const { return pass_.stage == Stage::vertex; }
 
-    /// What is run of a dispatch, as text::Dispatch has it. Vertices that are watched count as groups of lanes_at_once,
-    /// and make no words.
+    /// What is run of a dispatch, as text::Dispatch has it. Vertices that are watched, or whose coverage is asked for,
+    /// count as groups of lanes_at_once, and make no words.
     struct How {
         std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
         bool is_watched = false;
+        text::Coverage* coverage = nullptr;
     };
     /// The dispatch in plain bits. `after`: a state as before it; what the dispatch writes of it is set.
     void run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings,

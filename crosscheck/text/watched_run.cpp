@@ -19,16 +19,20 @@ WatchedRun run_watched(const Examination& of, const text::Program& program, Made
                        const text::StageRun& stage) {
     const bool runs_again = of.is_watched && program.stage == spv::ExecutionModelGLCompute;
     MadeUpWorld again = runs_again ? world.copy() : MadeUpWorld();
-    WatchedRun run{.world = std::move(world), .writers = {}, .outputs = {}, .findings = {}};
+    WatchedRun run{
+        .world = std::move(world), .writers = {}, .outputs = {}, .findings = {}, .coverage = text::Coverage(program)};
     if (program.stage != spv::ExecutionModelGLCompute) {
-        run.outputs = text::run_stage(program, stage, run.world.bindings, examined_profile(), run.findings);
+        text::StageRun covered = stage;
+        covered.coverage = &run.coverage;
+        run.outputs = text::run_stage(program, covered, run.world.bindings, examined_profile(), run.findings);
         return run;
     }
     text::Dispatch dispatch{.groups = of.groups,
                             .is_watched = of.is_watched,
                             .most_branches = most_branches,
                             .subgroup_size = of.subgroup_size,
-                            .writers = of.reference.empty() ? nullptr : &run.writers};
+                            .writers = of.reference.empty() ? nullptr : &run.writers,
+                            .coverage = &run.coverage};
     if (!text::run_dispatch(program, dispatch, run.world.bindings, examined_profile(), run.findings) ||
         is_endless(run.findings) || !runs_again)
         return run;
@@ -36,6 +40,7 @@ WatchedRun run_watched(const Examination& of, const text::Program& program, Made
     // do not.
     text::Findings reversed;
     dispatch.writers = nullptr;
+    dispatch.coverage = nullptr;
     dispatch.is_reversed = true;
     text::run_dispatch(program, dispatch, again.bindings, examined_profile(), reversed);
     for (const text::Finding& one : reversed.all())

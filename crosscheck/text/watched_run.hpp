@@ -12,6 +12,7 @@ struct WatchedRun {
     text::Writers writers;     ///< of a compute stage that is compared with a reference
     text::StageResult outputs; ///< of another stage that is
     text::Findings findings;
+    text::Coverage coverage;
 };
 
 /// Runs a stage with the arithmetic of GLSL alone. `stage`: what runs of it, unless it is a compute stage.

@@ -39,7 +39,8 @@ TEST_CASE("examine: a shader without a fault has no findings, one without its ba
     const std::string right = folder.write("right.comp", sum("barrier();")).string();
     const Outcome quiet = run_lockstep({"examine", right, "--uniform", "u_Kept=0.5"});
     CHECK(quiet.status == 0);
-    CHECK(quiet.out == "right.comp: no findings in 4 groups of 64 invocations\n");
+    CHECK(quiet.out == "right.comp: no findings in 4 groups of 64 invocations\ncoverage  right.comp: all 4 lines in 4 "
+                       "groups of 64 invocations\n");
     const std::string wrong = folder.write("wrong.comp", sum("")).string(),
                       json = (folder.path() / "found.json").string();
     const Outcome found = run_lockstep({"examine", wrong, "--groups", "2,1,1", "--json", json});
@@ -253,7 +254,7 @@ TEST_CASE("examine: a text of an old version is one line, not the compiler's tab
     const TemporaryFolder folder;
     const Outcome old = run_lockstep(
         {"examine", folder.write("old.frag", "#version 130\nout vec4 o;\nvoid main() { o = vec4(1.0); }\n").string()});
-    CHECK(old.out == "old.frag: no findings in 64 fragments\n");
+    CHECK(old.out == "old.frag: no findings in 64 fragments\ncoverage  old.frag: 1 of 1 line in 64 fragments\n");
 }
 
 TEST_CASE("examine: vertex, geometry and fragment stages run with inputs that are given or made up") {
@@ -267,7 +268,7 @@ TEST_CASE("examine: vertex, geometry and fragment stages run with inputs that ar
                               "    o_Colour = vec4(pow(v_Normal.z, u_Shine), edge, normalize(v_Normal).xy);\n}\n";
     const Outcome right = examined("shade.frag", shade, {"--uniform", "u_Shine=2", "--invocations", "9"});
     CHECK(right.status == 0);
-    CHECK(right.out == "shade.frag: no findings in 12 fragments\n");
+    CHECK(right.out == "shade.frag: no findings in 12 fragments\ncoverage  shade.frag: all 2 lines in 12 fragments\n");
     const Outcome behind = examined("shade.frag", shade, {"--uniform", "u_Shine=2", "--input", "v_Normal=0,0,-1"});
     CHECK(behind.status == 1);
     CHECK_THAT(behind.out, Contains("shade.frag: 1 finding in 64 fragments\n") &&
@@ -283,7 +284,8 @@ TEST_CASE("examine: vertex, geometry and fragment stages run with inputs that ar
         examined("strip.geom", "layout(points) in;\nlayout(line_strip, max_vertices = 2) out;\nvoid main() {\n"
                                "    for (int i = 0; i < 2; ++i) {\n        gl_Position = gl_in[0].gl_Position;\n"
                                "        EmitVertex();\n    }\n}\n");
-    CHECK(geometry.out == "strip.geom: no findings in 64 primitives\n");
+    CHECK(geometry.out == "strip.geom: no findings in 64 primitives\ncoverage  strip.geom: all 3 lines and 2 branch "
+                          "sides in 64 primitives\n");
 }
 
 TEST_CASE("examine: a stage that the driver refuses was not run, whatever its text is found to do") {

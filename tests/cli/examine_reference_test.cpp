@@ -70,6 +70,7 @@ TEST_CASE("examine --reference: a text that leaves the same words agrees, howeve
     INFO(same.out << same.err);
     CHECK(same.status == 0);
     CHECK(same.out == "shader.comp: no findings in 4 groups of 16 invocations\n"
+                      "coverage  shader.comp: all 9 lines and 4 branch sides in 4 groups of 16 invocations\n"
                       "verdict   AGREE: all 512 words are those of " +
                           texts.path("yesterday/shader.comp") + "; 360 are written\n");
 }

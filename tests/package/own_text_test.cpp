@@ -131,6 +131,7 @@ TEST_CASE("own text: a kernel agrees with a text in another hand, without a twin
     CHECK(result.report().verdict == Verdict::agree);
     CHECK(result.report().total.compared() == std::uint64_t{30} * (2 * count + 1));
     CHECK_THAT(result.text(), !Catch::Contains("not looked into"));
+    CHECK_THAT(result.text(), Catch::Contains("\ncoverage  burn.comp: "));
 }
 
 TEST_CASE("own text: what differs from the text is DIVERGENT, and notes name the line without a counterpart") {
@@ -191,6 +192,18 @@ TEST_CASE("own text: a wrong shader of a system with twins is told from the text
     INFO(result.text());
     CHECK(result.report().verdict == Verdict::divergent);
     CHECK_THAT(result.text(), Catch::Contains("without a counterpart in the reference: grains_step.vert"));
+}
+
+TEST_CASE("own text: a program of one's own asks how much of its shader's text was run") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder half;
+    const std::string never =
+        planted(half, "grains_step.vert", text_of(grains_shader), "void main() {",
+                "void main() {\n    if (u_Tick < 0.0) {\n        gl_Position = vec4(0.0);\n        return;\n    }");
+    CHECK(run_grains({"--cover-at-least", "75%"}) == 0);
+    CHECK(run_grains({"--shaders", never}) == 0);
+    CHECK(run_grains({"--shaders", never, "--cover-at-least", "75%"}) == 1);
 }
 
 TEST_CASE("own text: a program of one's own takes texts in the place of its twins") {

@@ -78,6 +78,7 @@ export function verdictSection(head) {
     ),
     limited.map((text) => h("p", { class: "warning note" }, text)),
     facts(head),
+    (head.report.coverage ?? []).map(({ text }) => h("p", { class: "muted" }, `Coverage of ${text}.`)),
     (head.report.notes ?? []).map((note) => h("p", { class: "warning note" }, note)),
   );
 }

@@ -162,7 +162,8 @@ std::string read_pass(const JsonValue& value, const System& system) {
 } // namespace
 
 ItemCapsule cut_item_capsule(SystemRun& run, std::size_t item, const std::string& renderer) {
-    const JudgedPass judged = run.judged();
+    JudgedPass judged = run.judged();
+    judged.text = nullptr; // a capsule has no shaders
     const std::uint8_t resource = judged.pass.resource();
     if (item >= judged.gpu.count())
         throw Error(fmt::format("there is no {} {}; {} has 0 to {}", judged.gpu.about().item, item, run.system().name,

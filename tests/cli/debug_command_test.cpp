@@ -151,8 +151,8 @@ TEST_CASE("debug_command: help names every command; quit, and the end of the inp
     const std::string help = setting.told("help\n");
     for (const char* command : {"frame, f F ", "particle I ", "texel X,Y ", "show ", "step, s [N] ", "back [N] ",
                                 "next, n fetch|difference|divergence|nan ", "why, w ", "print, p NAME ",
-                                "history [NAME] ", "break, b [NAME < NUMBER] ", "continue, c ", "set NAME=VALUE ",
-                                "list, l divergent|", "source FILE ", "help, h ", "quit, q "})
+                                "history [NAME] ", "break, b [NAME < NUMBER | FILE:LINE] ", "continue, c ",
+                                "set NAME=VALUE ", "list, l divergent|", "source FILE ", "help, h ", "quit, q "})
         CHECK_THAT(help, Catch::Contains(command));
     CHECK(setting.told("# a comment\n\n  \nquit # the end\nnonsense\n").empty());
     CHECK(setting.told("").empty());
@@ -162,9 +162,9 @@ TEST_CASE("debug_command: what cannot be done is told with the line of the scrip
     if (!test::have_software_gl())
         return;
     const Setting setting;
-    CHECK(setting.error("\n# first\nnonsense\n") ==
-          "line 3: unknown command 'nonsense'; the commands are frame, particle, texel, show, step, back, next, why, "
-          "print, history, break, continue, set, list, source, help, quit");
+    CHECK(setting.error("\n# first\nnonsense\n") == "line 3: unknown command 'nonsense'; the commands are frame, "
+                                                    "particle, texel, show, step, back, line, next, why, "
+                                                    "print, history, break, continue, set, list, source, help, quit");
     CHECK_THAT(setting.error("fram 2\n"), Catch::EndsWith("; did you mean frame?"));
     CHECK_THAT(setting.error(std::string("fra\0me 2\n", 9)),
                Catch::StartsWith("line 1: unknown command 'fra\\x00me'; the commands are frame, "));

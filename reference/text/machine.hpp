@@ -18,6 +18,7 @@
 #include "reference/text/program.hpp"
 #include "reference/text/subgroup_words.hpp"
 #include "reference/text/trace.hpp"
+#include "reference/vector_loops.hpp"
 
 namespace lockstep::text {
 
@@ -108,6 +109,13 @@ template <class R, int W> class Machine {
         if constexpr (has_sets<R>)
             if (is_real)
                 to.set(Real(std::bit_cast<float>(word)));
+    }
+    /// Loops of this run on vectors, which they do not where a whole cell is assigned.
+    static void take(C& to, const C& from) {
+        if constexpr (runs_apart<R>)
+            to = from;
+        else
+            to.w = from.w;
     }
     /// The float that a number is; of a set, one of its own run for each.
     float number(const Real& x) {
@@ -204,6 +212,7 @@ template <class R, int W> class Machine {
     std::array<std::int32_t, 3> texel_place(std::uint32_t first, std::uint32_t count, Lane l);
 
     // Values: machine_operations.hpp and glsl_functions.hpp.
+    void operations();
     void operation(const Step& s);
     void integer_operation(const Step& s);
     bool open_operation(const Step& s) requires has_sets<R>;
@@ -244,6 +253,7 @@ template <class R, int W> class Machine {
     std::uint32_t lanes_ = 0, count_ = 0, at_ = 0, jumps_ = 0, looks_from_ = 0;
     bool together_ = true; ///< the lanes at this step are all that run or wait
     std::array<Lane, W> active_{};
+    std::array<std::uint32_t, W> here_{}; ///< of each lane, 1 where it is one of these
     std::array<State, W> state_{};
     std::array<std::uint32_t, W> pc_{}, from_{}, depth_{};
     std::array<Invocation, W> invocations_{};
@@ -356,6 +366,9 @@ template <class R, int W> void Machine<R, W>::run() {
     seen_.active.clear(); // at a barrier others go on
     gather();
     while (count_ > 0) {
+        if constexpr (!runs_apart<R>)
+            if (!is_watched())
+                operations();
         const Step& s = p_.steps[at_++];
         if constexpr (has_sets<R>)
             r.set_place(*sites_[at_ - 1], p_.precise[at_ - 1] != 0);

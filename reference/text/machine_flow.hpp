@@ -18,9 +18,12 @@ template <class R, int W> void Machine<R, W>::gather() {
         return;
     at_ = pc_[best];
     note_came();
+    here_.fill(0);
     for (std::uint32_t l = 0; l < lanes_; ++l)
-        if (state_[l] == State::running && pc_[l] == at_)
+        if (state_[l] == State::running && pc_[l] == at_) {
             active_[count_++] = l;
+            here_[l] = 1;
+        }
     together_ = count_ == alive;
 }
 

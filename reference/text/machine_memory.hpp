@@ -92,7 +92,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
         for (std::uint32_t c = 0; c < s.n; ++c) {
             C* const out = cell(s.out + c);
             const C* const a = cell(s.a + c);
-            each([&](Lane l) { out[l] = a[l]; });
+            each([&](Lane l) { take(out[l], a[l]); });
         }
         break;
     case code::address: {

@@ -50,7 +50,7 @@ TEST_CASE("debug_session: a command that cannot be done says why and changes not
     DebugSession session = session_of(shaders);
     const std::pair<const char*, const char*> wrong[] = {
         {"nonsense",
-         "unknown command 'nonsense'; the commands are frame, particle, texel, show, step, back, next, why, "
+         "unknown command 'nonsense'; the commands are frame, particle, texel, show, step, back, line, next, why, "
          "print, history, break, continue, set, list, source, help, quit"},
         {"frame", "frame: '' is not an integer from 0 to 100000000"},
         {"frame -1", "frame: '-1' is not an integer from 0 to 100000000"},

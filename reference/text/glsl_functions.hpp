@@ -320,7 +320,7 @@ template <class R, int W> void Machine<R, W>::extended(const Step& s) {
         r.set_free(!is_measured);
     }
     // The nearest float of what GLSL gives a precision, or none.
-    const auto nearest = [&](double (*f)(double)) {
+    const auto nearest = [&](double (*f)(double)) __attribute__((noinline)) {
         real1(s, [&](const Real& v) {
             if constexpr (has_sets<R>)
                 return r.function(function, v);
@@ -328,7 +328,7 @@ template <class R, int W> void Machine<R, W>::extended(const Step& s) {
                 return Real(static_cast<float>(f(double{v})));
         });
     };
-    const auto nearest2 = [&](double (*f)(double, double)) {
+    const auto nearest2 = [&](double (*f)(double, double)) __attribute__((noinline)) {
         real2(s, [&](const Real& a, const Real& b) {
             if constexpr (has_sets<R>)
                 return r.function(function, a, b);

@@ -111,7 +111,7 @@ template <class R, int W> class Machine {
                 to.set(Real(std::bit_cast<float>(word)));
     }
     /// Loops of this run on vectors, which they do not where a whole cell is assigned.
-    static void take(C& to, const C& from) {
+    static void assign(C& to, const C& from) {
         if constexpr (runs_apart<R>)
             to = from;
         else
@@ -133,13 +133,27 @@ template <class R, int W> class Machine {
             for (int l = 0; l < W; ++l)
                 f(static_cast<Lane>(l));
         } else {
-            active(f);
+            apart(f);
         }
     }
+    template <class F> [[gnu::noinline]] void apart(const F& f) { active(f); }
     /// Calls f(l) for each lane at this step, in their order, and for no other.
     template <class F> void active(const F& f) {
         for (std::uint32_t i = 0; i < count_; ++i)
             f(active_[i]);
+    }
+    /// Calls f(l, whether it is at this step) for all lanes: a loop on vectors.
+    template <class F> void all(const F& f) {
+#pragma GCC ivdep
+        for (int l = 0; l < W; ++l)
+            f(static_cast<Lane>(l), here_[l] != 0);
+    }
+    /// Whether some lane at this step is so.
+    template <class F> bool any(const F& is) {
+        std::uint32_t found = 0;
+        for (int l = 0; l < W; ++l)
+            found |= here_[l] & static_cast<std::uint32_t>(is(static_cast<Lane>(l)));
+        return found != 0;
     }
     [[nodiscard]] Place place(const Step& s, Lane l) const {
         return {p_.lines[static_cast<std::size_t>(&s - p_.steps.data())], invocations_[l].number};
@@ -171,12 +185,15 @@ template <class R, int W> class Machine {
     void check(const Step& s);
 
     // Control: machine_flow.hpp.
+    void take(const Step& s);
+    /// Has all that it calls compiled into it, but for what is kept out, as rare or as no work of vectors.
+    void run_on_vectors();
     void flow(const Step& s);
     void gather();
     void go_to(std::uint32_t step);
-    void look(std::uint32_t step);
+    [[gnu::noinline]] void look(std::uint32_t step);
     [[nodiscard]] bool can_end_from(std::uint32_t step) const;
-    [[noreturn]] void end_loop(std::string_view rule, Place at, std::string why) const;
+    [[noreturn, gnu::noinline]] void end_loop(std::string_view rule, Place at, std::string why) const;
     template <class To> void go_each(const To& to);
     void take_from_blocks(const Step& s);
     [[nodiscard]] std::uint32_t case_of(const Step& s, std::uint32_t chosen) const;
@@ -187,7 +204,7 @@ template <class R, int W> class Machine {
     void note_ways(const Step& s);
 
     // Stages: machine_stage.hpp.
-    void stage(const Step& s);
+    [[gnu::noinline]] void stage(const Step& s);
     void make(const Step& s, Lane l);
     void need_outputs(const Step& s, Lane l);
     void differ(const Step& s);
@@ -199,20 +216,19 @@ template <class R, int W> class Machine {
     // What becomes of what, of a traced reading: machine_trace.hpp.
     void note_operands(const Step& s);
     void note_results();
-    void atomic(const Step& s);
+    [[gnu::noinline]] void atomic(const Step& s);
     // Subgroups: machine_subgroup.hpp.
-    void subgroup(const Step& s);
+    [[gnu::noinline]] void subgroup(const Step& s);
     void follow_subgroup(const Step& s);
     void subgroup_exchange(const Step& s, std::span<const Lane> peers, Lane l);
     std::optional<Lane> subgroup_source(const Step& s, std::span<const Lane> peers, Lane l);
     std::uint32_t subgroup_word(const Step& s, std::span<const Lane> peers, Lane l, std::uint32_t c);
     [[nodiscard]] std::uint32_t built_in(spv::BuiltIn builtin, Lane l, std::uint32_t c) const;
     std::uint32_t changed(const Step& s, std::uint32_t before, Lane l);
-    Memory::Texel sampled(const Step& s, Lane l);
+    [[gnu::noinline]] Memory::Texel sampled(const Step& s, Lane l);
     std::array<std::int32_t, 3> texel_place(std::uint32_t first, std::uint32_t count, Lane l);
 
     // Values: machine_operations.hpp and glsl_functions.hpp.
-    void operations();
     void operation(const Step& s);
     void integer_operation(const Step& s);
     bool open_operation(const Step& s) requires has_sets<R>;
@@ -220,7 +236,7 @@ template <class R, int W> class Machine {
     void multiply_matrix(const Step& s);
     void extended(const Step& s);
     void integer_function(const Step& s);
-    void geometric_function(const Step& s);
+    [[gnu::noinline]] void geometric_function(const Step& s);
     void packing_function(const Step& s);
     void matrix_function(const Step& s);
     enum class Rounds : std::uint8_t { to_nearest, to_either, to_zero, up, to_sign };
@@ -239,7 +255,7 @@ template <class R, int W> class Machine {
     typename R::Vec3 vec3(std::uint32_t first, Lane l) {
         return {cell(first)[l].real(), cell(first + 1)[l].real(), cell(first + 2)[l].real()};
     }
-    [[noreturn]] void refuse(const Step& s, std::string_view what) const {
+    [[noreturn, gnu::noinline]] void refuse(const Step& s, std::string_view what) const {
         throw Error(fmt::format("shader {}: {}", p_.line_name(place(s, 0).line), what));
     }
 
@@ -251,7 +267,8 @@ template <class R, int W> class Machine {
     std::vector<C> cells_;
     std::vector<Unset> unset_; ///< as cells_; empty: nobody looks
     std::uint32_t lanes_ = 0, count_ = 0, at_ = 0, jumps_ = 0, looks_from_ = 0;
-    bool together_ = true; ///< the lanes at this step are all that run or wait
+    std::uint32_t others_at_ = 0; ///< the earliest step of those that run elsewhere; 0: is to be found
+    bool together_ = true;        ///< the lanes at this step are all that run or wait
     std::array<Lane, W> active_{};
     std::array<std::uint32_t, W> here_{}; ///< of each lane, 1 where it is one of these
     std::array<State, W> state_{};
@@ -365,10 +382,10 @@ template <class R, int W> void Machine<R, W>::run() {
             state = State::running;
     seen_.active.clear(); // at a barrier others go on
     gather();
+    if constexpr (!runs_apart<R>)
+        if (!is_watched())
+            return run_on_vectors();
     while (count_ > 0) {
-        if constexpr (!runs_apart<R>)
-            if (!is_watched())
-                operations();
         const Step& s = p_.steps[at_++];
         if constexpr (has_sets<R>)
             r.set_place(*sites_[at_ - 1], p_.precise[at_ - 1] != 0);
@@ -378,19 +395,23 @@ template <class R, int W> void Machine<R, W>::run() {
             follow(s);
             check(s);
         }
-        if (s.op < code::extended)
-            operation(s);
-        else if (s.op < code::own)
-            extended(s);
-        else if (s.op < code::jump)
-            memory(s);
-        else if (s.op < code::stages)
-            flow(s);
-        else
-            stage(s);
+        take(s);
         if constexpr (is_traced<R>)
             note_results();
     }
+}
+
+template <class R, int W> void Machine<R, W>::take(const Step& s) {
+    if (s.op < code::extended)
+        operation(s);
+    else if (s.op < code::own)
+        extended(s);
+    else if (s.op < code::jump)
+        memory(s);
+    else if (s.op < code::stages)
+        flow(s);
+    else
+        stage(s);
 }
 
 } // namespace lockstep::text

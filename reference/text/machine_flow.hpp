@@ -6,24 +6,25 @@ namespace lockstep::text {
 
 /// Chooses the lanes that go on: those deepest in calls, of these those at the earliest step.
 template <class R, int W> void Machine<R, W>::gather() {
-    std::uint32_t best = W, alive = 0;
-    for (std::uint32_t l = 0; l < lanes_; ++l) {
+    constexpr std::uint32_t none = 0xffffffffU;
+    std::uint32_t depth = 0, alive = 0;
+    at_ = others_at_ = none;
+    for (int l = 0; l < W; ++l) {
         alive += state_[l] != State::ended ? 1 : 0;
-        if (state_[l] == State::running &&
-            (best == W || depth_[l] > depth_[best] || (depth_[l] == depth_[best] && pc_[l] < pc_[best])))
-            best = l;
+        depth = std::max(depth, state_[l] == State::running ? depth_[l] : 0);
+    }
+    for (int l = 0; l < W; ++l)
+        at_ = std::min(at_, state_[l] == State::running && depth_[l] == depth ? pc_[l] : none);
+    for (int l = 0; l < W; ++l) {
+        here_[l] = state_[l] == State::running && pc_[l] == at_ ? 1 : 0;
+        others_at_ = std::min(others_at_, state_[l] == State::running && pc_[l] != at_ ? pc_[l] : none);
     }
     count_ = 0;
-    if (best == W)
-        return;
-    at_ = pc_[best];
-    note_came();
-    here_.fill(0);
-    for (std::uint32_t l = 0; l < lanes_; ++l)
-        if (state_[l] == State::running && pc_[l] == at_) {
+    for (std::uint32_t l = 0; l < W; ++l)
+        if (here_[l] != 0)
             active_[count_++] = l;
-            here_[l] = 1;
-        }
+    if (count_ > 0)
+        note_came();
     together_ = count_ == alive;
 }
 
@@ -106,7 +107,7 @@ template <class R, int W> void Machine<R, W>::look(std::uint32_t step) {
 template <class R, int W> void Machine<R, W>::go_to(std::uint32_t step) {
     if (++jumps_ > looks_from_)
         look(step);
-    if (together_) {
+    if (together_ || step < others_at_) {
         at_ = step;
         note_came();
         return;
@@ -132,6 +133,28 @@ template <class R, int W> template <class To> void Machine<R, W>::go_each(const 
 /// All OpPhi of a block at once: one may take what another was.
 template <class R, int W> void Machine<R, W>::take_from_blocks(const Step& s) {
     const std::span<const Step> all(&s, s.b + 1U);
+    if (!runs_apart<R> && !is_watched()) {
+        std::size_t words = 0;
+        for (const Step& phi : all)
+            words += std::size_t{phi.n} * W;
+        moved_.resize(std::max(moved_.size(), words));
+        C* to = moved_.data();
+        for (const Step& phi : all)
+            for (std::uint32_t c = 0; c < phi.n; ++c, to += W)
+                for (std::uint32_t k = 0; k < phi.a; ++k) {
+                    const std::uint32_t block = p_.operands[phi.d + 2 * k];
+                    const C* const from = cell(p_.operands[phi.d + 2 * k + 1] + c);
+                    this->all([&](Lane l, bool) { assign(to[l], from_[l] == block ? from[l] : to[l]); });
+                }
+        const C* made = moved_.data();
+        for (const Step& phi : all)
+            for (std::uint32_t c = 0; c < phi.n; ++c, made += W) {
+                C* const out = cell(phi.out + c);
+                this->all([&](Lane l, bool is_here) { assign(out[l], is_here ? made[l] : out[l]); });
+            }
+        at_ += s.b;
+        return;
+    }
     moved_.clear();
     moved_unset_.clear();
     moved_made_by_.clear();
@@ -196,8 +219,15 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
         go_to(s.a);
         break;
     case code::branch: {
-        const C* condition = cell(s.a);
-        go_each([&](Lane l) { return condition[l].word() != 0 ? s.b : s.c; });
+        const C* const condition = cell(s.a);
+        if (!any([&](Lane l) { return condition[l].word() != 0; })) {
+            go_to(s.c);
+        } else if (!any([&](Lane l) { return condition[l].word() == 0; })) {
+            go_to(s.b);
+        } else {
+            active([&](Lane l) { pc_[l] = condition[l].word() != 0 ? s.b : s.c; });
+            gather();
+        }
         break;
     }
     case code::choose: {
@@ -214,14 +244,20 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
     case code::from_block:
         take_from_blocks(s);
         break;
-    case code::call:
-        active([&](Lane l) {
-            if (returns_.size() <= std::size_t{depth_[l]} * W)
-                returns_.resize((std::size_t{depth_[l]} + 1) * W);
-            returns_[std::size_t{depth_[l]++} * W + l] = at_;
+    case code::call: {
+        std::size_t deepest = 0;
+        for (int l = 0; l < W; ++l)
+            deepest = std::max<std::size_t>(deepest, here_[l] * depth_[l]);
+        returns_.resize(std::max(returns_.size(), (deepest + 1) * W));
+        std::uint32_t* const returns = returns_.data();
+        all([&](Lane l, bool is_here) {
+            std::uint32_t& to = returns[std::size_t{is_here ? depth_[l] : 0} * W + l];
+            to = is_here ? at_ : to;
+            depth_[l] += is_here ? 1 : 0;
         });
         go_to(s.a);
         break;
+    }
     case code::finish: {
         bool ends = false;
         active([&](Lane l) {
@@ -238,8 +274,17 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
             });
             gather();
         } else {
-            active([&](Lane l) { --depth_[l]; });
-            go_each([&](Lane l) { return returns_[std::size_t{depth_[l]} * W + l]; });
+            const std::uint32_t* const returns = returns_.data();
+            all([&](Lane l, bool is_here) {
+                depth_[l] -= is_here ? 1 : 0;
+                pc_[l] = is_here ? returns[std::size_t{is_here ? depth_[l] : 0} * W + l] : pc_[l];
+            });
+            others_at_ = 0; // those may be deeper
+            const std::uint32_t first = pc_[active_[0]];
+            if (any([&](Lane l) { return pc_[l] != first; }))
+                gather();
+            else
+                go_to(first);
         }
         break;
     }

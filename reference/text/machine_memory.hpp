@@ -92,7 +92,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
         for (std::uint32_t c = 0; c < s.n; ++c) {
             C* const out = cell(s.out + c);
             const C* const a = cell(s.a + c);
-            each([&](Lane l) { take(out[l], a[l]); });
+            each([&](Lane l) { assign(out[l], a[l]); });
         }
         break;
     case code::address: {
@@ -102,7 +102,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             const std::uint32_t* const term = &p_.operands[s.d + 3 * k];
             const C* const index = cell(term[0]);
             each([&](Lane l) { out[l].set(out[l].word() + index[l].word() * term[1]); });
-            if (term[2] != 0)
+            if (term[2] != 0 && any([&](Lane l) { return index[l].word() >= term[2]; }))
                 active([&](Lane l) {
                     if (index[l].word() >= term[2]) {
                         memory_.note_index(index[l].word(), term[2], place(s, l));
@@ -113,16 +113,20 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
         break;
     }
     case code::load_variable:
-        active([&](Lane l) {
-            for (std::uint32_t c = 0; c < s.n; ++c)
-                cell(s.out + c)[l] = cell(s.a + cell(s.b)[l].word() + c)[l];
-        });
-        break;
     case code::store_variable:
-        active([&](Lane l) {
-            for (std::uint32_t c = 0; c < s.n; ++c)
-                cell(s.a + cell(s.b)[l].word() + c)[l] = cell(s.c + c)[l];
-        });
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const bool loads = s.op == code::load_variable;
+            const C* const offset = cell(s.b);
+            C* const variable = cell(s.a + c);
+            C* const value = cell((loads ? s.out : s.c) + c);
+            all([&](Lane l, bool is_here) {
+                C& part = variable[std::size_t{is_here ? offset[l].word() : 0} * W + l];
+                if (loads)
+                    assign(value[l], is_here ? part : value[l]);
+                else
+                    assign(part, is_here ? value[l] : part);
+            });
+        }
         break;
     case code::load_shared:
         for (std::uint32_t c = 0; c < s.n; ++c) {
@@ -142,11 +146,17 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             const Leaf leaf = p_.leaves[s.d + c];
             const C* const offset = cell(s.b);
             const std::span<const std::uint32_t> words = is_watched() ? std::span<std::uint32_t>() : memory_.words(s.a);
-            active([&](Lane l) {
-                const std::uint32_t at = offset[l].word() + leaf.word;
-                set_word(out[l], at < words.size() ? words[at] : memory_.load_block(s.a, at, place(s, l)),
-                         leaf.is_real);
-            });
+            if (any([&](Lane l) { return offset[l].word() + leaf.word >= words.size(); }))
+                active([&](Lane l) {
+                    const std::uint32_t at = offset[l].word() + leaf.word;
+                    set_word(out[l], at < words.size() ? words[at] : memory_.load_block(s.a, at, place(s, l)),
+                             leaf.is_real);
+                });
+            else
+                all([&](Lane l, bool is_here) {
+                    const std::uint32_t word = words[is_here ? offset[l].word() + leaf.word : 0];
+                    out[l].set(is_here ? word : out[l].word());
+                });
         }
         break;
     case code::store_block:

@@ -123,7 +123,7 @@ template <class R, int W> void Machine<R, W>::vector_operation(const Step& s) {
             for (std::uint32_t row = 0; row < s.d; ++row) {
                 C* const out = cell(s.out + row * s.c + column);
                 const C* const a = cell(s.a + column * s.d + row);
-                each([&](Lane l) { take(out[l], a[l]); });
+                each([&](Lane l) { assign(out[l], a[l]); });
             }
         break;
     case spv::OpVectorExtractDynamic:
@@ -151,7 +151,7 @@ template <class R, int W> void Machine<R, W>::vector_operation(const Step& s) {
             const C* const condition = cell(s.d != 0 ? s.a + c : s.a);
             const C* const a = cell(s.b + c);
             const C* const b = cell(s.c + c);
-            each([&](Lane l) { take(out[l], condition[l].word() != 0 ? a[l] : b[l]); });
+            each([&](Lane l) { assign(out[l], condition[l].word() != 0 ? a[l] : b[l]); });
         }
         break;
     case spv::OpAny:

@@ -6,39 +6,28 @@
 
 namespace lockstep::text {
 
-/// Takes the steps from here on up to the first that is no operation on cells alone. Where some lanes wait elsewhere,
-/// it is taken for all, and those get their cells back.
-template <> LOCKSTEP_VECTOR_CLONES void TextMachine::operations() {
+/// Operations on cells alone are taken for all lanes where enough of them are at the step; those that are not get their
+/// cells back.
+template <> LOCKSTEP_VECTOR_CLONES void TextMachine::run_on_vectors() {
     constexpr std::uint32_t W = lanes_at_once;
-    for (;; ++at_) {
-        const Step& s = p_.steps[at_];
-        if (s.op < code::own
-                ? is_subgroup_operation(s.op)
-                : s.op != code::copy && s.op != code::address && s.op != code::real_bits && s.op != code::bits_as_real)
-            return;
-        const bool parts = !together_ && count_ >= W / 8;
+    while (count_ > 0) {
+        const Step& s = p_.steps[at_++];
+        const bool is_operation = s.op < code::own ? !is_subgroup_operation(s.op)
+                                                   : s.op == code::copy || s.op == code::address ||
+                                                         s.op == code::real_bits || s.op == code::bits_as_real;
+        if (together_ || !is_operation || count_ < W / 8) {
+            take(s);
+            continue;
+        }
         const std::size_t words = (s.op == code::address ? 1 : s.n) * std::size_t{W};
         C* const out = cell(s.out);
-        if (parts) {
-            moved_.assign(out, out + words);
-            together_ = true;
-        }
-        if (s.op < code::extended)
-            operation(s);
-        else if (s.op < code::own)
-            extended(s);
-        else
-            memory(s);
-        if (parts) {
-            together_ = false;
-            const C* const before = moved_.data();
-            const std::uint32_t* const here = here_.data();
-            for (std::size_t c = 0; c < words; c += W) {
-                LOCKSTEP_VECTOR_LOOP
-                for (std::size_t l = 0; l < W; ++l)
-                    out[c + l].w = here[l] != 0 ? out[c + l].w : before[c + l].w;
-            }
-        }
+        moved_.assign(out, out + words);
+        together_ = true;
+        take(s);
+        together_ = false;
+        const C* const before = moved_.data();
+        for (std::size_t c = 0; c < words; c += W)
+            all([&](Lane l, bool is_here) { out[c + l].w = is_here ? out[c + l].w : before[c + l].w; });
     }
 }
 

@@ -5,8 +5,8 @@ namespace lockstep::text {
 
 /// The machine of plain bits, compiled once.
 using TextMachine = Machine<TextValues, lanes_at_once>;
-/// For each kind of vectors that processors have (text_machine.cpp).
-template <> void TextMachine::operations();
+/// Compiled for each kind of vectors that processors have (text_machine.cpp).
+template <> void TextMachine::run_on_vectors();
 extern template class Machine<TextValues, lanes_at_once>;
 
 } // namespace lockstep::text

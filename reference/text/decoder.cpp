@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reference/model/error.hpp"
+#include "reference/text/fewer_copies.hpp"
 #include "reference/text/subgroup_words.hpp"
 
 namespace lockstep::text {
@@ -524,6 +525,10 @@ std::string Program::variable_at(std::uint32_t cell) const {
 
 std::string_view Program::shared_at(std::uint32_t cell) const { return name_at(shared_names, cell); }
 
-Program decoded(const Module& module) { return Decoder(module).take(); }
+Program decoded(const Module& module) {
+    Program program = Decoder(module).take();
+    program.fewer = with_fewer_copies(program);
+    return program;
+}
 
 } // namespace lockstep::text

@@ -100,8 +100,9 @@ Invocation invocation_of(const Program& program, const std::array<std::uint32_t,
     return {place_in(number / size, groups), local_place(program, number % size), number};
 }
 
-bool run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
+bool run_dispatch(const Program& given, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
                   Findings& findings) {
+    const Program& program = dispatch.is_watched || given.fewer == nullptr ? given : *given.fewer;
     const FlushSubnormals guard{profile.compute_flush_subnormals,
                                 profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
     TextValues values(profile);

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -185,6 +186,7 @@ struct Decision {
 /// A decoded shader.
 struct Program {
     std::vector<Step> steps;
+    std::shared_ptr<const Program> fewer; ///< the same in fewer steps (fewer_copies.hpp); null: there is none
     std::vector<std::uint32_t> lines;  ///< of each step
     std::vector<std::uint8_t> stated;  ///< of each step: the text has a statement there, in that line
     std::vector<std::uint8_t> precise; ///< of each step: nothing fuses or reorders it (NoContraction)

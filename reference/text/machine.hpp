@@ -155,6 +155,11 @@ template <class R, int W> class Machine {
             found |= here_[l] & static_cast<std::uint32_t>(is(static_cast<Lane>(l)));
         return found != 0;
     }
+    /// Whether all lanes at this step have the same there.
+    bool are_one(const C* words) {
+        const std::uint32_t first = words[active_[0]].word();
+        return !any([&](Lane l) { return words[l].word() != first; });
+    }
     [[nodiscard]] Place place(const Step& s, Lane l) const {
         return {p_.lines[static_cast<std::size_t>(&s - p_.steps.data())], invocations_[l].number};
     }

@@ -7,22 +7,27 @@ namespace lockstep::text {
 /// Chooses the lanes that go on: those deepest in calls, of these those at the earliest step.
 template <class R, int W> void Machine<R, W>::gather() {
     constexpr std::uint32_t none = 0xffffffffU;
-    std::uint32_t depth = 0, alive = 0;
-    at_ = others_at_ = none;
+    std::array<std::uint32_t, W> at; // of those that run
+    std::uint32_t depth = 0, alive = 0, first = none, others = none, count = 0;
     for (int l = 0; l < W; ++l) {
+        const bool runs = state_[l] == State::running;
         alive += state_[l] != State::ended ? 1 : 0;
-        depth = std::max(depth, state_[l] == State::running ? depth_[l] : 0);
+        at[l] = runs ? pc_[l] : none;
+        depth = std::max(depth, runs ? depth_[l] : 0);
     }
     for (int l = 0; l < W; ++l)
-        at_ = std::min(at_, state_[l] == State::running && depth_[l] == depth ? pc_[l] : none);
+        first = std::min(first, depth_[l] == depth ? at[l] : none);
     for (int l = 0; l < W; ++l) {
-        here_[l] = state_[l] == State::running && pc_[l] == at_ ? 1 : 0;
-        others_at_ = std::min(others_at_, state_[l] == State::running && pc_[l] != at_ ? pc_[l] : none);
+        here_[l] = at[l] == first && first != none ? 1 : 0;
+        others = std::min(others, at[l] != first ? at[l] : none);
     }
-    count_ = 0;
-    for (std::uint32_t l = 0; l < W; ++l)
-        if (here_[l] != 0)
-            active_[count_++] = l;
+    for (std::uint32_t l = 0; l < W; ++l) {
+        active_[count] = l;
+        count += here_[l];
+    }
+    at_ = first;
+    others_at_ = others;
+    count_ = count;
     if (count_ > 0)
         note_came();
     together_ = count_ == alive;

@@ -119,13 +119,20 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             const C* const offset = cell(s.b);
             C* const variable = cell(s.a + c);
             C* const value = cell((loads ? s.out : s.c) + c);
-            all([&](Lane l, bool is_here) {
-                C& part = variable[std::size_t{is_here ? offset[l].word() : 0} * W + l];
+            const auto move = [&](C& part, Lane l, bool is_here) {
                 if (loads)
                     assign(value[l], is_here ? part : value[l]);
                 else
                     assign(part, is_here ? value[l] : part);
-            });
+            };
+            if (are_one(offset)) {
+                C* const row = variable + std::size_t{offset[active_[0]].word()} * W;
+                all([&](Lane l, bool is_here) { move(row[l], l, is_here); });
+            } else {
+                all([&](Lane l, bool is_here) {
+                    move(variable[std::size_t{is_here ? offset[l].word() : 0} * W + l], l, is_here);
+                });
+            }
         }
         break;
     case code::load_shared:
@@ -146,7 +153,10 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             const Leaf leaf = p_.leaves[s.d + c];
             const C* const offset = cell(s.b);
             const std::span<const std::uint32_t> words = is_watched() ? std::span<std::uint32_t>() : memory_.words(s.a);
-            if (any([&](Lane l) { return offset[l].word() + leaf.word >= words.size(); }))
+            const std::uint32_t first = offset[active_[0]].word() + leaf.word;
+            if (first < words.size() && are_one(offset))
+                all([&](Lane l, bool is_here) { out[l].set(is_here ? words[first] : out[l].word()); });
+            else if (any([&](Lane l) { return offset[l].word() + leaf.word >= words.size(); }))
                 active([&](Lane l) {
                     const std::uint32_t at = offset[l].word() + leaf.word;
                     set_word(out[l], at < words.size() ? words[at] : memory_.load_block(s.a, at, place(s, l)),

@@ -102,7 +102,8 @@ Invocation invocation_of(const Program& program, const std::array<std::uint32_t,
 
 bool run_dispatch(const Program& given, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
                   Findings& findings) {
-    const Program& program = dispatch.is_watched || given.fewer == nullptr ? given : *given.fewer;
+    const bool is_whole = dispatch.is_watched || dispatch.coverage != nullptr || given.fewer == nullptr;
+    const Program& program = is_whole ? given : *given.fewer;
     const FlushSubnormals guard{profile.compute_flush_subnormals,
                                 profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
     TextValues values(profile);

@@ -17,7 +17,6 @@
 #include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/text/bound_stage.hpp"
 #include "crosscheck/text/faulty_operation.hpp"
-#include "crosscheck/text/item_steps.hpp"
 #include "crosscheck/text/text_pass.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"

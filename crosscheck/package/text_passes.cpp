@@ -15,7 +15,7 @@
 #include "crosscheck/judge/item_sample.hpp"
 #include "crosscheck/judge/open_pass.hpp"
 #include "crosscheck/judge/system_run.hpp"
-#include "crosscheck/text/item_steps.hpp"
+#include "crosscheck/package/item_steps.hpp"
 #include "crosscheck/text/pass_witness.hpp"
 #include "crosscheck/text/stage_text.hpp"
 #include "reference/model/error.hpp"

@@ -1,6 +1,8 @@
 #include "crosscheck/text/bound_stage.hpp"
 
+#include "crosscheck/text/group_witness.hpp"
 #include "reference/model/error.hpp"
+#include "reference/text/group_memory.hpp"
 #include "reference/text/trace.hpp"
 
 namespace lockstep {
@@ -27,6 +29,32 @@ std::optional<std::string> BoundStage::line_of(std::uint32_t invocation, const t
     return line;
 } catch (const Error&) {
     return {}; // run together with others
+}
+
+ShownLine shown_line(const text::Program& program, std::uint32_t step) {
+    const auto file_of = [&](std::uint32_t line) {
+        const std::string where = program.line_name(line);
+        return where.substr(0, where.rfind(':'));
+    };
+    ShownLine at{program.lines[step]};
+    for (std::uint32_t k = program.in_place_of[step]; k != 0; k = program.in_place[k - 1].outer) {
+        const std::uint32_t call = program.in_place[k - 1].line;
+        if (file_of(at.line) == file_of(call))
+            break;
+        at = {call, true};
+    }
+    return at;
+}
+
+std::vector<text::TracedWord> trace_alone(const BoundStage& stage, std::uint32_t number, text::Trace& trace) {
+    const text::Invocation invocation = stage.invocation(number);
+    if (!shares(stage.program))
+        return text::run_traced(stage.program, invocation, stage.groups, stage.bindings, stage.profile, {}, trace,
+                                stage.inputs(number));
+    text::GroupMemory memory = text::remembered_group(stage.program, stage.groups, stage.bindings, stage.profile,
+                                                      number / stage.program.invocations());
+    return text::run_traced_in_group(stage.program, invocation, stage.groups, stage.bindings, stage.profile, {}, trace,
+                                     memory, {});
 }
 
 } // namespace lockstep

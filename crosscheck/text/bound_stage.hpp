@@ -30,4 +30,16 @@ struct BoundStage {
     [[nodiscard]] std::optional<std::string> line_of(std::uint32_t invocation, const text::WrittenPlace& place) const;
 };
 
+/// The line that a step is shown by: its own, or, of a small function that stands in the place of its call and lies in
+/// another file, the call's.
+struct ShownLine {
+    std::uint32_t line = 0;
+    bool is_call = false;
+};
+ShownLine shown_line(const text::Program& program, std::uint32_t step);
+
+/// Traces one invocation, and gives what it writes; one of a group that shares finds what the others left. Throws Error
+/// for what is not run so.
+std::vector<text::TracedWord> trace_alone(const BoundStage& stage, std::uint32_t invocation, text::Trace& trace);
+
 } // namespace lockstep

@@ -1,5 +1,6 @@
 #include "crosscheck/text/covered_text.hpp"
 
+#include "crosscheck/text/stage_text.hpp"
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -34,8 +35,12 @@ TextCoverage covered_text(const ShaderSource& stage, const text::Program& progra
         return FileLine{fs::path(stage.files[origin.file]).filename().string(),
                         static_cast<std::uint32_t>(origin.line)};
     };
+    // Newer glslang gives the return at a function's end the line of its brace.
+    const auto is_brace = [&](std::uint32_t line) {
+        return line_text(stage, line).find_first_not_of("{}; ") == std::string::npos;
+    };
     for (const auto& [line, is_reached] : text::covered_lines(program, coverage))
-        if (const std::optional<FileLine> at = place(line)) {
+        if (const std::optional<FileLine> at = place(line); at && !is_brace(line)) {
             TextCoverage::Line& to = made.lines[*at];
             to.has_statement = true;
             to.is_reached = to.is_reached || is_reached;

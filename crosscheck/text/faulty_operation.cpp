@@ -14,7 +14,7 @@
 #include <GLSL.std.450.h>
 #include <fmt/format.h>
 
-#include "crosscheck/text/item_steps.hpp"
+#include "crosscheck/text/bound_stage.hpp"
 #include "crosscheck/text/stage_text.hpp"
 #include "reference/model/error.hpp"
 
@@ -173,10 +173,13 @@ std::string type_name(char type, std::uint32_t size) {
     return type == 'f' || type == 'F' ? "float" : type == 'i' ? "int" : type == 'u' ? "uint" : "bool";
 }
 
+constexpr int with_compute_stages = 430; ///< the first GLSL that has them
+
 /// A compute stage that makes the operation and nothing else, of the words of a block.
 std::string repro_of(const Kind& kind) {
-    std::string text =
-        "#version 430\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Operands { uint x[]; };\n";
+    std::string text = fmt::format(
+        "#version {}\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Operands {{ uint x[]; }};\n",
+        with_compute_stages);
     text += fmt::format("layout(std430, binding = 1) buffer Results {{ {} y[]; }};\n\nvoid main() {{\n",
                         kind.of_result() == 'f' || kind.of_result() == 'F' ? "float" : "uint");
     text += fmt::format("    const uint at = gl_GlobalInvocationID.x;\n");

@@ -24,8 +24,8 @@ struct ItemSteps {
     std::string file;
     std::vector<TextStep> steps = {};
     std::map<std::string, std::string> lines = {}; ///< of the text, by TextStep::where
-    std::vector<std::uint32_t> made = {}; ///< the item as the text makes it, component by component
-    std::string not_known = {};           ///< why there are none; empty: there are
+    std::vector<std::uint32_t> made = {};          ///< the item as the text makes it, component by component
+    std::string not_known = {};                    ///< why there are none; empty: there are
 };
 
 /// The text of a pass's shader, run for single items.

@@ -187,9 +187,9 @@ struct Decision {
 struct Program {
     std::vector<Step> steps;
     std::shared_ptr<const Program> fewer; ///< the same in fewer steps (fewer_copies.hpp); null: there is none
-    std::vector<std::uint32_t> lines;  ///< of each step
-    std::vector<std::uint8_t> stated;  ///< of each step: the text has a statement there, in that line
-    std::vector<std::uint8_t> precise; ///< of each step: nothing fuses or reorders it (NoContraction)
+    std::vector<std::uint32_t> lines;     ///< of each step
+    std::vector<std::uint8_t> stated;     ///< of each step: the text has a statement there, in that line
+    std::vector<std::uint8_t> precise;    ///< of each step: nothing fuses or reorders it (NoContraction)
     /// Of each step that a function's body makes in the place of its call: the call's number, from 1, in in_place; 0:
     /// none.
     std::vector<std::uint32_t> in_place_of;

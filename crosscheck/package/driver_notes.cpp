@@ -53,8 +53,9 @@ std::optional<Departure> departure(const JudgedPass& judged, const TextDispatch&
         }
         return true;
     };
-    if (text != item_words(judged.reference, item) &&
-        std::ranges::any_of(dispatch.outcomes(before, r, item, judged.known), lies_in))
+    // Where sets are not followed, other bits than the text's may be as legal.
+    const std::vector<ItemOutcome> outcomes = dispatch.outcomes(before, r, item, judged.known);
+    if (text != item_words(judged.reference, item) && (outcomes.empty() || std::ranges::any_of(outcomes, lies_in)))
         return {};
     return Departure{item, static_cast<std::size_t>(differs.in1 - gpu.begin()), *differs.in2, *differs.in1};
 }

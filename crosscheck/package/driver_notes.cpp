@@ -38,7 +38,7 @@ std::optional<Departure> departure(const JudgedPass& judged, const TextDispatch&
     const View before = judged.before[r];
     const std::vector<std::uint32_t> gpu = item_words(judged.gpu, item), text = dispatch.words(before, r, item);
     const auto differs = std::ranges::mismatch(gpu, text);
-    if (differs.in1 == gpu.end())
+    if (differs.in1 == gpu.end() || !dispatch.writer(r, item)) // of several that write it any may be the last
         return {};
     const auto lies_in = [&](const ItemOutcome& outcome) {
         const std::vector<Component> parts = components(judged.gpu.about());

@@ -85,7 +85,7 @@ std::string indented(const std::string& text) {
 
 /// Some of the items that diverge.
 std::vector<std::size_t> divergent_sample(const JudgedPass& judged) {
-    constexpr std::size_t most = 20, most_judged = 100;
+    constexpr std::size_t most = 10, most_judged = 40;
     std::vector<std::size_t> some;
     for (const std::size_t item : sample(differing_items(judged.reference, judged.gpu), most_judged))
         if (some.size() < most && judge_item(judged, item).kind == DifferenceClass::divergent)

@@ -111,7 +111,7 @@ TextNotes shader_findings(const ShadedSystem& of, const OwnTexts& own,
                                                                        written_by(system, p), folders, of.arithmetic);
                 texts[p].coverage = text::Coverage(texts[p].text->program());
                 if (shaders)
-                    texts[p].left = covered == CoveredRuns::all ? 2'000'000 : 100'000;
+                    texts[p].left = covered == CoveredRuns::all ? 2'000'000 : 20'000;
             } catch (const Error& error) {
                 lines.push_back(fmt::format("text of {}.{} not looked into: {}", of.passes[p].name,
                                             of.passes[p].stage == Stage::compute ? "comp" : "vert", error.what()));

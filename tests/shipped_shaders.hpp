@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 namespace lockstep::test {
@@ -10,6 +12,12 @@ inline std::filesystem::path shipped_shaders(const std::string& file) {
         if (std::filesystem::exists(std::filesystem::path(folder) / file))
             return folder;
     return "shaders/fluid";
+}
+
+/// The text of the shipped shader shaders/`path`.
+inline std::string shipped_text(const std::string& path) {
+    std::ifstream stream("shaders/" + path);
+    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 } // namespace lockstep::test

@@ -62,10 +62,11 @@ struct DrawnFrame {
 /// What the texts of the user's own shaders say.
 void add_text_notes(RunDescription& about, const ShadedSystem& of, const OwnTexts& own, const RunOptions& run,
                     SystemSide& side, const KnownOperations& known, const PassRules& rules, CheckReport& report) {
-    for (std::string& note : driver_notes(of, run.shaders, side, known, report))
+    DivergentPass divergence(of.system, side, known, report);
+    for (std::string& note : driver_notes(of, own, run.shaders, divergence))
         about.notes.push_back(std::move(note));
     if (about.shaders && !run.shaders.empty())
-        add_notes(about, text_notes(of, {own, *about.shaders, run.shaders, run.reference}, side, known, report,
+        add_notes(about, text_notes(of, {own, *about.shaders, run.shaders, run.reference}, divergence, report,
                                     covered_runs(rules)));
 }
 

@@ -525,10 +525,14 @@ std::string legal_text(const Interval& legal, Scalar scalar) {
     return legal.low == legal.high ? text(legal.low) : fmt::format("{} to {}", text(legal.low), text(legal.high));
 }
 
+std::vector<StepRow> item_rows(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told) {
+    return item_rows(pass, item, told, steps_of_item(pass, item));
+}
+
 std::vector<StepRow> item_rows(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told,
-                               const ItemSteps* text) {
+                               const std::optional<ItemSteps>& text) {
     std::vector<StepRow> rows = ItemTable(pass, item, told)();
-    if (text != nullptr)
+    if (text)
         align(rows, *text);
     return rows;
 }

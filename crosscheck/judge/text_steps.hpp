@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// A value that a pass's shader comes by, by its own text.
+/// A value that the text of a pass's shader computes.
 struct TextStep {
     std::string where; ///< FILE:LINE
     std::string name;  ///< of the variable and its component, or what is compared; empty: it has none
@@ -19,7 +19,7 @@ struct TextStep {
     bool compares = false; ///< numbers, of which `is_real` says what they are
 };
 
-/// What the text comes by for one item, in order.
+/// What the text computes for one item, in order.
 struct ItemSteps {
     std::string file;
     std::vector<TextStep> steps = {};
@@ -43,7 +43,7 @@ class PassSteps {
 Cell cell_of(const TextStep& step);
 
 /// Gives each row of which the GPU told nothing the value that the text has in its place, and its line. Both are
-/// aligned by value, in order; a row whose value the text never comes by says so.
+/// aligned by value, in order; a row whose value the text never computes says so.
 void align(std::vector<StepRow>& rows, const ItemSteps& text);
 
 } // namespace lockstep

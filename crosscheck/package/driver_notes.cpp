@@ -1,7 +1,6 @@
 #include "crosscheck/package/driver_notes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -10,11 +9,8 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/plain_text.hpp"
-#include "crosscheck/judge/dispatch.hpp"
-#include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/item_place.hpp"
-#include "crosscheck/judge/item_sample.hpp"
-#include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/report/value_text.hpp"
 #include "crosscheck/text/bound_stage.hpp"
 #include "crosscheck/text/faulty_operation.hpp"
 #include "crosscheck/text/text_pass.hpp"
@@ -40,23 +36,14 @@ std::optional<Departure> departure(const JudgedPass& judged, const TextDispatch&
     const auto differs = std::ranges::mismatch(gpu, text);
     if (differs.in1 == gpu.end() || !dispatch.writer(r, item)) // of several that write it any may be the last
         return {};
-    const auto lies_in = [&](const ItemOutcome& outcome) {
-        const std::vector<Component> parts = components(judged.gpu.about());
-        for (std::size_t k = 0; k < parts.size(); ++k) {
-            const Value value = judged.gpu.value(parts[k].field, item, parts[k].component);
-            const Interval& set = outcome.values[k];
-            const bool is_in = value.scalar == Scalar::float32 ? set.contains(value.real())
-                                                               : set.low <= static_cast<double>(value.integer()) &&
-                                                                     static_cast<double>(value.integer()) <= set.high;
-            if (!set.any && !is_in)
-                return false;
-        }
-        return true;
-    };
-    // Where sets are not followed, other bits than the text's may be as legal.
-    const std::vector<ItemOutcome> outcomes = dispatch.outcomes(before, r, item, judged.known);
-    if (text != item_words(judged.reference, item) && (outcomes.empty() || std::ranges::any_of(outcomes, lies_in)))
-        return {};
+    if (text != item_words(judged.reference, item)) {
+        // Where sets are not followed, other bits than the text's may be as legal.
+        const std::vector<ItemOutcome> outcomes = dispatch.outcomes(before, r, item, judged.known);
+        if (outcomes.empty() || std::ranges::any_of(outcomes, [&](const ItemOutcome& outcome) {
+                return outcome.contains(gpu, judged.gpu.about());
+            }))
+            return {};
+    }
     return Departure{item, static_cast<std::size_t>(differs.in1 - gpu.begin()), *differs.in2, *differs.in1};
 }
 
@@ -65,13 +52,9 @@ std::string words_of(const JudgedPass& judged, const Departure& one) {
     const Resource& about = judged.gpu.about();
     const Component part = components(about)[one.component];
     const Field& field = about.fields[part.field];
-    const auto number = [&](std::uint32_t bits) {
-        const Value value{field.scalar, bits};
-        return value.scalar == Scalar::float32 ? fmt::format("{:.9g}", value.real())
-                                               : fmt::format("{}", value.integer());
-    };
     return fmt::format("{} {} is {} by the text, {} on the GPU", item_name(about, judged.gpu.extent, one.item),
-                       component_name(field, part.component), number(one.by_text), number(one.by_gpu));
+                       component_name(field, part.component), decimal_text({field.scalar, one.by_text}),
+                       decimal_text({field.scalar, one.by_gpu}));
 }
 
 /// Under a note's words.
@@ -83,31 +66,21 @@ std::string indented(const std::string& text) {
     return all;
 }
 
-/// Some of the items that diverge.
-std::vector<std::size_t> divergent_sample(const JudgedPass& judged) {
-    constexpr std::size_t most = 10, most_judged = 40;
-    std::vector<std::size_t> some;
-    for (const std::size_t item : sample(differing_items(judged.reference, judged.gpu), most_judged))
-        if (some.size() < most && judge_item(judged, item).kind == DifferenceClass::divergent)
-            some.push_back(item);
-    return some;
-}
-
 } // namespace
 
-std::vector<std::string> driver_notes(const ShadedSystem& of, const std::filesystem::path& shaders, SystemSide& side,
-                                      const KnownOperations& known, const CheckReport& report) try {
-    if (report.verdict != Verdict::divergent || !report.verdicts || !report.verdicts->first)
+std::vector<std::string> driver_notes(const ShadedSystem& of, const OwnTexts& own, const std::filesystem::path& shaders,
+                                      DivergentPass& divergence) try {
+    if (!divergence.pass())
         return {};
-    const std::size_t p = report.verdicts->first->pass;
-    const std::shared_ptr<const PassText> text = text_of_pass(of, p, shaders);
+    const std::size_t p = *divergence.pass();
+    const bool is_read = p < own.size() && own[p] != nullptr;
+    const std::shared_ptr<const PassText> text = is_read ? own[p] : text_of_pass(of, p, shaders);
     if (text == nullptr)
         return {};
-    const SystemRun again(of.system, side, known, report.verdicts->first->place.frame, p);
-    const JudgedPass judged = again.judged();
+    const JudgedPass judged = divergence.judged();
     const TextDispatch dispatch(*text, judged.input(), judged.profile);
     std::vector<Departure> departed;
-    const std::vector<std::size_t> items = divergent_sample(judged);
+    const std::vector<std::size_t>& items = divergence.items().wrong;
     for (const std::size_t item : items)
         if (const std::optional<Departure> one = departure(judged, dispatch, item))
             departed.push_back(*one);
@@ -124,7 +97,8 @@ std::vector<std::string> driver_notes(const ShadedSystem& of, const std::filesys
             traces.emplace_back();
             trace_alone(stage, *by, traces.back());
         }
-    if (const auto fault = faulty_operation({side.describe().name, judged.profile}, text->program(), traces))
+    if (const auto fault =
+            faulty_operation({divergence.side().describe().name, judged.profile}, text->program(), traces))
         notes.push_back(fmt::format("driver: {}: {}; this stage shows it alone:\n{}", plain_line(fault->where),
                                     fault->words, indented(fault->repro)));
     else

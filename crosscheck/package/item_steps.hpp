@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// What a pass's text comes by, item by item; `text()` is asked when an item first is, and throws Error where a text is
+/// What a pass's text computes, item by item; `text()` is asked when an item first is, and throws Error where a text is
 /// not interpreted. `resource`: what the pass makes.
 std::shared_ptr<const PassSteps> steps_of_text(std::uint8_t resource,
                                                std::function<std::shared_ptr<const PassText>()> text);

@@ -67,8 +67,9 @@ TextNotes SystemTexts::notes(SystemSide& side, const KnownOperations& known, Che
                              CoveredRuns covered) const {
     TextNotes notes{.lines = references_.lines, .coverage = {}};
     if (own_) {
-        std::ranges::move(driver_notes(of_, own_->folder, side, known, report), std::back_inserter(notes.lines));
-        TextNotes of_own = text_notes(of_, *own_, side, known, report, covered);
+        DivergentPass divergence(of_.system, side, known, report);
+        std::ranges::move(driver_notes(of_, own_->texts, own_->folder, divergence), std::back_inserter(notes.lines));
+        TextNotes of_own = text_notes(of_, *own_, divergence, report, covered);
         std::ranges::move(of_own.lines, std::back_inserter(notes.lines));
         notes.coverage = std::move(of_own.coverage);
     }

@@ -180,12 +180,12 @@ void note_race(CheckReport& report, const std::vector<std::string>& findings) {
 
 } // namespace
 
-TextNotes text_notes(const ShadedSystem& of, const OwnShaders& own, SystemSide& side, const KnownOperations& known,
-                     CheckReport& report, CoveredRuns covered) {
-    TextNotes notes = shader_findings(of, own.texts, own.folder, side.describe().profile, report.frames, covered);
+TextNotes text_notes(const ShadedSystem& of, const OwnShaders& own, DivergentPass& divergence, CheckReport& report,
+                     CoveredRuns covered) {
+    TextNotes notes =
+        shader_findings(of, own.texts, own.folder, divergence.side().describe().profile, report.frames, covered);
     note_race(report, notes.lines);
-    for (const std::string& line :
-         lines_without_counterpart(of, own.texts, own.use, own.reference, side, known, report))
+    for (const std::string& line : lines_without_counterpart(of, own.texts, own.use, own.reference, divergence))
         notes.lines.push_back("without a counterpart in the reference: " + line);
     return notes;
 }

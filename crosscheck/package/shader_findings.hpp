@@ -50,7 +50,7 @@ struct OwnShaders {
 
 /// What the texts of a run's own shaders say: shader_findings, and where it is DIVERGENT lines_without_counterpart. A
 /// race limits a green verdict (CheckReport::untried).
-TextNotes text_notes(const ShadedSystem& of, const OwnShaders& own, SystemSide& side, const KnownOperations& known,
-                     CheckReport& report, CoveredRuns covered);
+TextNotes text_notes(const ShadedSystem& of, const OwnShaders& own, DivergentPass& divergence, CheckReport& report,
+                     CoveredRuns covered);
 
 } // namespace lockstep

@@ -11,10 +11,7 @@
 
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/dispatch.hpp"
-#include "crosscheck/judge/item_judge.hpp"
-#include "crosscheck/judge/item_sample.hpp"
 #include "crosscheck/judge/open_pass.hpp"
-#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/package/item_steps.hpp"
 #include "crosscheck/text/pass_witness.hpp"
 #include "crosscheck/text/stage_text.hpp"
@@ -46,13 +43,18 @@ std::size_t lead_of(const ShadedSystem& of, std::size_t p) {
     return p;
 }
 
-/// Whether what the passes before p of its dispatch wrote is nothing that the text reads: then its dispatch makes of
-/// the state that p finds what it made of the one before.
-bool is_made_again(const ShadedSystem& of, std::size_t p, const PassText& text) {
+/// What the passes before p of its dispatch wrote.
+std::vector<std::uint8_t> made_before(const ShadedSystem& of, std::size_t p) {
+    std::vector<std::uint8_t> made;
     for (std::size_t k = lead_of(of, p); k < p; ++k)
-        if (text.reads(of.system.passes[k]->resource()))
-            return false;
-    return true;
+        made.push_back(of.system.passes[k]->resource());
+    return made;
+}
+
+/// Whether that is nothing that the text reads: then its dispatch makes of the state that p finds what it made of the
+/// one before.
+bool is_made_again(const std::vector<std::uint8_t>& made_before, const PassText& text) {
+    return std::ranges::none_of(made_before, [&](std::uint8_t resource) { return text.reads(resource); });
 }
 
 } // namespace
@@ -125,7 +127,7 @@ OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const st
         try {
             if (lead == p)
                 texts[p] = text_of(of, p, folders);
-            else if (texts[lead] != nullptr && is_made_again(of, p, *texts[lead]))
+            else if (texts[lead] != nullptr && is_made_again(made_before(of, p), *texts[lead]))
                 texts[p] = texts[lead];
             else
                 continue;
@@ -144,7 +146,7 @@ std::shared_ptr<const PassText> text_of_pass(const ShadedSystem& of, std::size_t
     if (!has_text(of.passes[lead]))
         return nullptr;
     std::shared_ptr<const PassText> text = text_of(of, lead, shader_folders(shaders, of.system.schema.system));
-    return is_made_again(of, p, *text) ? text : nullptr;
+    return is_made_again(made_before(of, p), *text) ? text : nullptr;
 }
 
 void show_texts(const ShadedSystem& of, const std::filesystem::path& shaders) {
@@ -154,61 +156,28 @@ void show_texts(const ShadedSystem& of, const std::filesystem::path& shaders) {
         const std::size_t lead = lead_of(of, p);
         if (!has_text(of.passes[lead]))
             continue;
-        std::vector<std::uint8_t> before; // what the passes before it made of the dispatch
-        for (std::size_t k = lead; k < p; ++k)
-            before.push_back(of.system.passes[k]->resource());
         of.system.texts[p] = steps_of_text(
-            of.system.passes[p]->resource(),
-            [&schema, pass = of.passes[lead], written = written_by(of.system, lead),
-             folders = shader_folders(shaders, schema.system), arithmetic = of.arithmetic, before] {
+            of.system.passes[p]->resource(), [&schema, pass = of.passes[lead], written = written_by(of.system, lead),
+                                              folders = shader_folders(shaders, schema.system),
+                                              arithmetic = of.arithmetic, before = made_before(of, p)] {
                 auto text = std::make_shared<const PassText>(schema, pass, written, folders, arithmetic);
-                if (std::ranges::any_of(before, [&](std::uint8_t resource) { return text->reads(resource); }))
+                if (!is_made_again(before, *text))
                     throw Error("its dispatch wrote what it reads");
                 return text;
             });
     }
 }
 
-namespace {
-
-/// Items that diverge, and such that both sides changed alike; few of each, from all over.
-struct SomeItems {
-    std::vector<std::size_t> wrong, right;
-};
-
-SomeItems some_items(const JudgedPass& judged) {
-    constexpr std::size_t most = 10, most_judged = 60;
-    std::vector<std::size_t> different, alike, wrong;
-    const std::uint8_t r = judged.pass.resource();
-    for (std::size_t item = 0; item < judged.gpu.count(); ++item) {
-        const auto gpu = item_words(judged.gpu, item);
-        if (gpu != item_words(judged.reference, item))
-            different.push_back(item);
-        else if (gpu != item_words(judged.before[r], item))
-            alike.push_back(item);
-    }
-    // What is legal follows from no line of the text alone.
-    for (const std::size_t item : sample(different, most_judged))
-        if (judge_item(judged, item).kind == DifferenceClass::divergent)
-            wrong.push_back(item);
-    return {sample(wrong, most), sample(alike, most)};
-}
-
-} // namespace
-
 std::vector<std::string> lines_without_counterpart(const ShadedSystem& of, const OwnTexts& own, const ShaderUse& use,
-                                                   const std::filesystem::path& reference, SystemSide& side,
-                                                   const KnownOperations& known, const CheckReport& report) try {
-    if (report.verdict != Verdict::divergent || !report.verdicts || !report.verdicts->first)
+                                                   const std::filesystem::path& reference,
+                                                   DivergentPass& divergence) try {
+    if (!divergence.pass() || own.size() <= *divergence.pass() || own[*divergence.pass()] == nullptr)
         return {};
-    const std::size_t p = report.verdicts->first->pass;
-    if (own.size() <= p || own[p] == nullptr)
-        return {};
+    const std::size_t p = *divergence.pass();
     const std::shared_ptr<const PassText> expected =
         text_of(of, lead_of(of, p), shader_folders(reference, of.system.schema.system));
-    const SystemRun again(of.system, side, known, report.verdicts->first->place.frame, p);
-    const JudgedPass judged = again.judged();
-    const SomeItems items = some_items(judged);
+    const JudgedPass judged = divergence.judged();
+    const DivergentPass::Items& items = divergence.items();
     const auto is_own_line = [&](std::string_view where) {
         return std::ranges::any_of(use.files, [&](const UsedShader& file) {
             return !file.foreign.empty() && where.starts_with(file.file + ":");

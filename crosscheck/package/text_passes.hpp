@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/system.hpp"
+#include "crosscheck/package/divergent_pass.hpp"
 #include "crosscheck/text/pass_text.hpp"
 #include "gpu/shader_use.hpp"
 #include "reference/known_operations.hpp"
@@ -49,13 +49,12 @@ OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const st
 std::shared_ptr<const PassText> text_of_pass(const ShadedSystem& of, std::size_t p,
                                              const std::filesystem::path& shaders);
 
-/// Has each pass show what its shader's text comes by, item by item. `shaders`: where the user's own are.
+/// Has each pass show what its shader's text computes, item by item. `shaders`: where the user's own are.
 void show_texts(const ShadedSystem& of, const std::filesystem::path& shaders);
 
 /// Where a check is DIVERGENT in a pass whose shader is the user's own: the lines of its text that have no counterpart
 /// in the reference's, which is in `reference` or the shipped one (text/witness.hpp).
 std::vector<std::string> lines_without_counterpart(const ShadedSystem& of, const OwnTexts& own, const ShaderUse& use,
-                                                   const std::filesystem::path& reference, SystemSide& side,
-                                                   const KnownOperations& known, const CheckReport& report);
+                                                   const std::filesystem::path& reference, DivergentPass& divergence);
 
 } // namespace lockstep

@@ -61,7 +61,7 @@ class DebugRun {
     [[nodiscard]] virtual std::string show(DebugItem item, NumberFormat format) = 0;
     [[nodiscard]] virtual std::string why(DebugItem item, NumberFormat format) = 0;
     [[nodiscard]] virtual std::vector<StepRow> rows(DebugItem item) = 0;
-    /// What the shader's text comes by for it; ItemSteps::not_known where there is none.
+    /// What the shader's text computes for it; ItemSteps::not_known where there is none.
     [[nodiscard]] virtual ItemSteps text(DebugItem /*item*/) {
         return {.file = {}, .not_known = "this pass has no text that is run"};
     }

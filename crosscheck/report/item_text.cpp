@@ -50,7 +50,7 @@ std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<con
     std::string text =
         fmt::format("{} in frame {}, pass {}\n", item_name(about, pass.gpu.extent, item), pass.frame, pass.pass.name());
     const std::optional<ItemSteps> steps = steps_of_item(pass, item);
-    const std::vector<StepRow> rows = item_rows(pass, item, told, steps ? &*steps : nullptr);
+    const std::vector<StepRow> rows = item_rows(pass, item, told, steps);
     std::size_t width = narrowest_label;
     for (const StepRow& row : rows)
         width = std::max(width, row.label.size());

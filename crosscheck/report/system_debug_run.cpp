@@ -96,9 +96,7 @@ std::string SystemDebugRun::why(DebugItem item, NumberFormat) {
 
 std::vector<StepRow> SystemDebugRun::rows(DebugItem item) {
     come_to(item.group);
-    const JudgedPass judged = run_.judged();
-    const std::optional<ItemSteps> steps = steps_of_item(judged, item.index);
-    return item_rows(judged, item.index, run_.told(item.index), steps ? &*steps : nullptr);
+    return item_rows(run_.judged(), item.index, run_.told(item.index));
 }
 
 ItemSteps SystemDebugRun::text(DebugItem item) {

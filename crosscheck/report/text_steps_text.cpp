@@ -47,12 +47,8 @@ std::string end_text(const JudgedPass& pass, std::size_t item, const ItemSteps& 
         const Value gpu = pass.gpu.value(parts[k].field, item, parts[k].component);
         if (gpu.bits == text.made[k])
             continue;
-        const auto words = [&](const Value& value) {
-            return value.scalar == Scalar::float32 ? number_text(value.real(), format)
-                                                   : fmt::format("{}", value.integer());
-        };
         return fmt::format("it ends in {} {}, the GPU has {}", component_name(field, parts[k].component),
-                           words(Value{field.scalar, text.made[k]}), words(gpu));
+                           value_text({field.scalar, text.made[k]}, format), value_text(gpu, format));
     }
     return "it ends in the GPU's bits";
 }

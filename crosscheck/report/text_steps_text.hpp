@@ -14,7 +14,7 @@ struct TextLine {
 };
 std::vector<TextLine> text_lines(const ItemSteps& text, NumberFormat format);
 
-/// What the shader's text comes by for an item, by line and variable, and whether it ends in what the GPU made.
+/// What the shader's text computes for an item, by line and variable, and whether it ends in what the GPU made.
 std::string text_steps_text(const JudgedPass& pass, std::size_t item, const ItemSteps& text, NumberFormat format);
 
 } // namespace lockstep

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -9,6 +8,7 @@
 
 #include "tests/cli/cli_checks.hpp"
 #include "tests/cli/run_program.hpp"
+#include "tests/shipped_shaders.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -16,15 +16,10 @@ using Catch::Contains;
 
 namespace {
 
-std::string shipped(const std::string& file) {
-    std::ifstream stream("shaders/" + file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// A folder with dust's vacuum as it is, and a file of one's own that it includes.
 std::string vacuum_in(const TemporaryFolder& folder, const std::string& added) {
     std::filesystem::create_directories(folder.path() / "mine");
-    std::string text = shipped("dust/vacuum_up.comp");
+    std::string text = shipped_text("dust/vacuum_up.comp");
     const std::string main = "void main() {\n";
     const std::size_t at = text.find(main);
     REQUIRE(at != std::string::npos);
@@ -150,7 +145,7 @@ TEST_CASE("--cover-at-least: refused where no text of the user's own is run") {
         return;
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder.path() / "mine");
-    folder.write("mine/draw.frag", shipped("dust/draw.frag"));
+    folder.write("mine/draw.frag", shipped_text("dust/draw.frag"));
     const Outcome none = check((folder.path() / "mine").string(), {"--cover-at-least", "90%", "--allow-unused"});
     INFO(none.out << none.err);
     CHECK(none.status == 2);

@@ -7,17 +7,13 @@
 
 #include "tests/cli/cli_checks.hpp"
 #include "tests/cli/run_program.hpp"
+#include "tests/shipped_shaders.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
 using Catch::Contains;
 
 namespace {
-
-std::string shipped(const std::string& file) {
-    std::ifstream stream("shaders/" + file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
     const std::size_t at = text.find(what);
@@ -46,13 +42,13 @@ TEST_CASE("--reference: a plain shader takes the place of a twin, with the same 
     if (!have_software_gl())
         return;
     const TemporaryFolder folder;
-    const std::string same = update_in(folder, "same", shipped("dust/update.comp"));
+    const std::string same = update_in(folder, "same", shipped_text("dust/update.comp"));
     const Outcome agrees = check("box.json", {"--reference", same});
     INFO(agrees.out << agrees.err);
     CHECK(agrees.status == 0);
     CHECK_THAT(agrees.out, Contains("verdict   AGREE") && Contains("reference of update: its text in " + same));
-    const std::string wrong =
-        update_in(folder, "wrong", replaced(shipped("dust/update.comp"), step, "m.next = add(m.current, m.velocity);"));
+    const std::string wrong = update_in(
+        folder, "wrong", replaced(shipped_text("dust/update.comp"), step, "m.next = add(m.current, m.velocity);"));
     const Outcome differs = check("box.json", {"--reference", same, "--shaders", wrong});
     CHECK(differs.status == 1);
     CHECK_THAT(differs.out, Contains("verdict   DIVERGENT") && Contains("--reference " + same));
@@ -74,18 +70,18 @@ TEST_CASE("--reference: a report says where the reference is what the GPU runs, 
     if (!have_software_gl())
         return;
     const TemporaryFolder folder;
-    const std::string both =
-        update_in(folder, "both", replaced(shipped("dust/update.comp"), step, "m.next = add(m.current, m.velocity);"));
+    const std::string both = update_in(
+        folder, "both", replaced(shipped_text("dust/update.comp"), step, "m.next = add(m.current, m.velocity);"));
     for (const Outcome& one :
          {check("box.json", {"--reference", both, "--shaders", both}),
-          check("box.json", {"--reference", update_in(folder, "same", shipped("dust/update.comp"))})}) {
+          check("box.json", {"--reference", update_in(folder, "same", shipped_text("dust/update.comp"))})}) {
         INFO(one.out << one.err);
         CHECK_THAT(one.out,
                    Contains("the same that the GPU runs: this says what the driver does, not whether the shader "
                             "is right"));
     }
     const std::string unset =
-        update_in(folder, "unset", replaced(shipped("dust/update.comp"), step, "vec3 far;\n    m.next = far;"));
+        update_in(folder, "unset", replaced(shipped_text("dust/update.comp"), step, "vec3 far;\n    m.next = far;"));
     CHECK_THAT(check("box.json", {"--reference", unset}).out,
                Contains("note      in the reference: ") && Contains("variable far"));
 }
@@ -94,23 +90,23 @@ TEST_CASE("--reference: what is no reference is one line") {
     if (!have_software_gl())
         return;
     const TemporaryFolder folder;
-    const std::string same = update_in(folder, "same", shipped("dust/update.comp"));
+    const std::string same = update_in(folder, "same", shipped_text("dust/update.comp"));
     CHECK_THAT(refusal(check("black_hole_gpu.json", {"--reference", same})),
                Contains(same) && Contains("populate.comp"));
     CHECK_THAT(refusal(check("box.json", {"--reference", (folder.path() / "none").string()})), Contains("none"));
-    folder.write("same/draw.frag", shipped("dust/draw.frag"));
+    folder.write("same/draw.frag", shipped_text("dust/draw.frag"));
     CHECK_THAT(refusal(check("box.json", {"--reference", same, "--allow-unused"})), Contains("draw.frag"));
     const std::string other = update_in(folder, "other",
-                                        replaced(shipped("dust/update.comp"), "void main() {",
+                                        replaced(shipped_text("dust/update.comp"), "void main() {",
                                                  "buffer More { float more[]; };\nvoid main() {\n    more[0] = 1.0;"));
     CHECK_THAT(refusal(check("box.json", {"--reference", other})),
                Contains("other/update.comp: nothing is given for storage block More"));
-    folder.write("other/update.comp", replaced(shipped("dust/update.comp"), "uniform vec3 gravity;",
+    folder.write("other/update.comp", replaced(shipped_text("dust/update.comp"), "uniform vec3 gravity;",
                                                "uniform ivec3 gravity;\n#define gravity vec3(gravity)"));
     CHECK_THAT(refusal(check("box.json", {"--reference", other})),
                Contains("other/update.comp: uniform gravity has 3 integers; 3 floats are given"));
     const std::string broken =
-        update_in(folder, "broken", replaced(shipped("dust/update.comp"), step, "m.next = nothing;"));
+        update_in(folder, "broken", replaced(shipped_text("dust/update.comp"), step, "m.next = nothing;"));
     CHECK_THAT(refusal(check("box.json", {"--reference", broken})), Contains("update.comp:"));
     CHECK_THAT(refusal(run_lockstep({"check", "data/scenes/lattice.json", "--reference", same, "--gl", software_gl()})),
                Contains("--reference") && Contains("collision"));
@@ -129,8 +125,9 @@ TEST_CASE("a shader without precise is legal where its own text leaves open what
         return;
     const TemporaryFolder folder;
     const std::string drag = "return add(v, mul(sub(a, drag), deltaTime));";
-    const std::string free = update_in(
-        folder, "free", replaced(shipped("dust/update.comp"), drag, "return (v + a * deltaTime) - drag * deltaTime;"));
+    const std::string free =
+        update_in(folder, "free",
+                  replaced(shipped_text("dust/update.comp"), drag, "return (v + a * deltaTime) - drag * deltaTime;"));
     for (const char* const scene : {"wind.json", "physics.json"}) {
         const Outcome legal = check(scene, {"--shaders", free});
         INFO(legal.out << legal.err);
@@ -139,12 +136,12 @@ TEST_CASE("a shader without precise is legal where its own text leaves open what
     }
     const std::string slip = update_in(
         folder, "slip",
-        replaced(shipped("dust/update.comp"), drag, "return (v + a * deltaTime) - drag * (deltaTime * 1.01);"));
+        replaced(shipped_text("dust/update.comp"), drag, "return (v + a * deltaTime) - drag * (deltaTime * 1.01);"));
     CHECK_THAT(check("physics.json", {"--shaders", slip}).out, Contains("verdict   DIVERGENT"));
     // What says `precise` has the bits that it asks for, and is held to them.
     const std::string precise =
         update_in(folder, "precise",
-                  replaced(shipped("dust/update.comp"), drag,
+                  replaced(shipped_text("dust/update.comp"), drag,
                            "precise vec3 r = (v + a * deltaTime) - drag * deltaTime;\n    return r;"));
     CHECK_THAT(check("physics.json", {"--shaders", precise}).out, Contains("verdict   DIVERGENT"));
 }
@@ -156,7 +153,7 @@ TEST_CASE("a shader without precise is legal in every output of its dispatch") {
     const std::string shipped_sum = "return add(whole(high), mul(float(low >> 8), 1.0 / 16777216.0));";
     const auto resolved = [&](const std::string& by) {
         folder.write("light_volume_resolve.comp",
-                     replaced(shipped("lights/light_volume_resolve.comp"), shipped_sum, by));
+                     replaced(shipped_text("lights/light_volume_resolve.comp"), shipped_sum, by));
         return run_lockstep({"check", "data/scenes/lights/edge_of_world.json", "--frames", "1", "--no-render", "--set",
                              "accumulate=fixed64", "--shaders", folder.path().string(), "--gl", software_gl()});
     };
@@ -175,7 +172,7 @@ TEST_CASE("a green run says that a shader's text has a race") {
         return;
     const TemporaryFolder folder;
     const std::string alone =
-        replaced(shipped("lights/light_volume_resolve.comp"), "void main", "shared float kept;\nvoid main");
+        replaced(shipped_text("lights/light_volume_resolve.comp"), "void main", "shared float kept;\nvoid main");
     folder.write("light_volume_resolve.comp", replaced(alone, "    imageStore(u_LightColorAfter",
                                                        "    kept = colour.x;\n    imageStore(u_LightColorAfter"));
     const Outcome races =
@@ -194,7 +191,7 @@ TEST_CASE("an item that a shader without precise may come to write, and did not,
     const std::string sum = "hashed(add(mul(s, rd1), mul(s, rd2)))"; // whether a grain comes out hangs on its last bit
     const auto sprayed = [&](const std::string& name, const std::string& by) {
         std::filesystem::create_directory(folder.path() / name);
-        folder.write(name + "/random.glsl", replaced(shipped("dust/random.glsl"), sum, by));
+        folder.write(name + "/random.glsl", replaced(shipped_text("dust/random.glsl"), sum, by));
         return run_lockstep({"check", "data/scenes/dust/catalogue/static_spray.json", "--preset", "corrected",
                              "--particles", "4000", "--frames", "4", "--no-render", "--shaders",
                              (folder.path() / name).string(), "--gl", software_gl()});
@@ -249,7 +246,7 @@ TEST_CASE("collision: floats without precise are legal in any order, unless they
     CHECK_THAT(held.out, Contains("verdict   DIVERGENT") && Contains("--legal measured"));
     CHECK(check(replaced(text, " * u_Tick", " * (1.001 * u_Tick)"), {}).status == 1);
     // What says `precise` has the order that it asks for.
-    const Outcome precise = check(replaced(shipped("collision/collision_pass.vert"), "v_Speed = ls_length(temp);",
+    const Outcome precise = check(replaced(shipped_text("collision/collision_pass.vert"), "v_Speed = ls_length(temp);",
                                            "v_Speed = sqrt(temp.y * temp.y + (temp.z * temp.z + temp.x * temp.x));"),
                                   {});
     CHECK(precise.status == 1);
@@ -260,7 +257,7 @@ TEST_CASE("a wrong shader stays DIVERGENT where its own text has more ways than 
     if (!have_software_gl())
         return;
     const TemporaryFolder folder;
-    folder.write("simulation.glsl", replaced(shipped("lifecycle/simulation.glsl"), "mul(m.acceleration, u_Tick)",
+    folder.write("simulation.glsl", replaced(shipped_text("lifecycle/simulation.glsl"), "mul(m.acceleration, u_Tick)",
                                              "mul(mul(m.acceleration, 2.0), u_Tick)"));
     const Outcome outcome = run_lockstep({"check", "data/scenes/lifecycle/embers.json", "--frames", "2", "--no-render",
                                           "--shaders", folder.path().string(), "--gl", software_gl()});
@@ -285,7 +282,8 @@ TEST_CASE("a wrong shader's line that has no counterpart in the reference's text
          "update.comp:50: dust[i].position = m.current;"},
         {"set_velocity(i, m.velocity);", "set_velocity(i, mul(m.velocity, 0.5));", "update.comp:49: set_velocity("}};
     for (const Change& one : changes) {
-        const std::string wrong = update_in(folder, "wrong", replaced(shipped("dust/update.comp"), one.what, one.by));
+        const std::string wrong =
+            update_in(folder, "wrong", replaced(shipped_text("dust/update.comp"), one.what, one.by));
         const Outcome outcome = check("physics.json", {"--shaders", wrong});
         INFO(outcome.out << outcome.err);
         CHECK(outcome.status == 1);

@@ -26,7 +26,7 @@ import xml.etree.ElementTree
 
 root = pathlib.Path(__file__).resolve().parent.parent.parent
 here = pathlib.Path(__file__).resolve().parent
-limit_s = 600
+limit_s = 300
 # What the program says of a child process that ended with a report: behind its fence that reaches no terminal.
 child_fault = r"ended the process|crashed with signal|needs too much memory|did not answer within|s of processor time"
 

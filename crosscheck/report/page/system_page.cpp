@@ -147,8 +147,7 @@ void SystemPage::keep(const CheckedPass& checked, std::size_t index, std::size_t
     Item item{judged.frame, checked.pass, index, kind, {}};
     try {
         const std::vector<ToldValue> told = told_of(gpu_, checked.pass, judged, index);
-        const std::optional<ItemSteps> steps = steps_of_item(judged, index);
-        const std::vector<StepRow> rows = item_rows(judged, index, told, steps ? &*steps : nullptr);
+        const std::vector<StepRow> rows = item_rows(judged, index, told);
         item.told = {{"name", item_name(judged.gpu.about(), judged.gpu.extent, index)},
                      {"before", state_json(judged.before[judged.pass.resource()], index)},
                      {"rows", rows_json(rows)},

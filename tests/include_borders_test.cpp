@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+namespace lockstep::test::include_borders_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -209,3 +211,5 @@ TEST_CASE("include borders: a test that uses the matcher includes Catch2 by itse
                text.str().find("#include <catch2/catch.hpp>\n") != std::string::npos));
     }
 }
+
+} // namespace lockstep::test::include_borders_test

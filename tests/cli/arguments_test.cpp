@@ -10,7 +10,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::arguments_test {
+
 using test::refusal;
 using test::run_lockstep;
 
@@ -377,3 +378,5 @@ TEST_CASE("arguments: more particles than fit into memory are refused in one lin
           "not enough memory; memory is limited to 1048576 KiB (ulimit -v)");
 }
 #endif
+
+} // namespace lockstep::test::arguments_test

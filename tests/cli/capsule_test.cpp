@@ -9,7 +9,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::capsule_test {
+
 using Catch::Contains;
 using test::refusal;
 using test::run_lockstep;
@@ -195,3 +196,5 @@ TEST_CASE("capsule: a pixel of the rendered frame says without GL what explain s
     CHECK_THAT(damaged("\"sprites_not_drawn\"", "\"sprites_not_drawm\""), Contains("/causes/0: "));
     CHECK_THAT(damaged("\"gpu\":[", "\"gpu\":[7,"), Contains("/gpu: not [red, green, blue, alpha]"));
 }
+
+} // namespace lockstep::test::capsule_test

@@ -6,7 +6,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::clip_space_test {
+
 using test::run_lockstep;
 
 namespace {
@@ -61,3 +62,5 @@ TEST_CASE("clip space: what draws with GL's own depth alone says so in one line"
     CHECK_THAT(test::refusal(run_lockstep(Reversed().command({"--set", "step=compute"}))),
                Catch::Contains("clip_space: depth [1, 0] is drawn on GL with search=cdt"));
 }
+
+} // namespace lockstep::test::clip_space_test

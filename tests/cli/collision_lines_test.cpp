@@ -7,8 +7,8 @@
 #include "tests/cli/run_program.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::collision_lines_test {
+
 using Catch::Contains;
 
 namespace {
@@ -104,3 +104,5 @@ TEST_CASE("check: a shader of collision with groups of another size has its line
     CHECK(larger.status == 1);
     CHECK_THAT(larger.out, Contains(note + "collision_pass.comp:") && Contains("0.5 * particle_min_length"));
 }
+
+} // namespace lockstep::test::collision_lines_test

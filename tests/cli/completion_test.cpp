@@ -10,6 +10,8 @@
 #include "tests/cli/run_program.hpp"
 #include "tests/temporary_folder.hpp"
 
+namespace lockstep::test::completion_test {
+
 using Catch::Contains;
 using lockstep::test::Outcome;
 using lockstep::test::run_lockstep;
@@ -99,3 +101,5 @@ TEST_CASE("help: every verb has an example, and the manual page has every verb")
                                Contains(".SH FILES\n") && Contains(".SH EXAMPLES\n") && Contains("NO_COLOR"));
     CHECK_THAT(manual.out, Contains(".TP\n\\fB\\-\\-mode\\fR \\fIresync|free\\fR\n"));
 }
+
+} // namespace lockstep::test::completion_test

@@ -10,8 +10,8 @@
 #include "tests/cli/run_program.hpp"
 #include "tests/shipped_shaders.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::coverage_test {
+
 using Catch::Contains;
 
 namespace {
@@ -150,3 +150,5 @@ TEST_CASE("--cover-at-least: refused where no text of the user's own is run") {
     INFO(none.out << none.err);
     CHECK(none.status == 2);
 }
+
+} // namespace lockstep::test::coverage_test

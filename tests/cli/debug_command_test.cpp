@@ -11,7 +11,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::debug_command_test {
+
 using test::run_lockstep;
 using test::run_lockstep_on_terminal;
 
@@ -387,3 +388,5 @@ TEST_CASE("debug_command: at the prompt Tab completes, arrows repeat, Ctrl-C sto
     CHECK_THAT(shown, Catch::Contains("frame 1: particles: none differ"));
     CHECK_THAT(shown, !Catch::Contains("unknown command"));
 }
+
+} // namespace lockstep::test::debug_command_test

@@ -6,7 +6,7 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::driver_converts_test {
 
 namespace {
 
@@ -139,3 +139,5 @@ TEST_CASE("driver converts: the fragment stage of the compute step may leave its
         CHECK(outcome.status == status);
     }
 }
+
+} // namespace lockstep::test::driver_converts_test

@@ -7,8 +7,8 @@
 #include "tests/cli/run_program.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::driver_faults_test {
+
 using Catch::Contains;
 
 namespace {
@@ -103,3 +103,5 @@ TEST_CASE("check: a wrong shader is not the driver's") {
     CHECK_THAT(outcome.out, !Contains("driver: "));
     CHECK_THAT(outcome.out, Contains("without a counterpart in the reference: update.comp:39"));
 }
+
+} // namespace lockstep::test::driver_faults_test

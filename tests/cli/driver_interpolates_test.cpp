@@ -5,7 +5,7 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::driver_interpolates_test {
 
 namespace {
 
@@ -60,3 +60,5 @@ TEST_CASE(
         CHECK_THAT(outcome.out, Catch::Contains("verdict   DIVERGENT"));
     }
 }
+
+} // namespace lockstep::test::driver_interpolates_test

@@ -12,7 +12,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/skip.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::driver_limits_test {
+
 using Catch::Contains;
 using test::run_lockstep;
 
@@ -116,3 +117,5 @@ TEST_CASE("driver limits: few open files, a small stack, closed streams and no t
     CHECK(closed.signal == 0);
     CHECK(check(test::software_gl(), {.closed = {0}}).status == 0);
 }
+
+} // namespace lockstep::test::driver_limits_test

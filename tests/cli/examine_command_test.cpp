@@ -9,8 +9,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/cli/run_program.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::examine_command_test {
+
 using Catch::Contains;
 
 namespace {
@@ -321,3 +321,5 @@ TEST_CASE("check: a report on shaders of one's own says what their texts show, w
     shaders.write("update.comp", text.replace(text.find(set), set.size(), "vec3 a;"));
     CHECK_THAT(check().out, Contains("use of a variable that was never set (GLSL 4.60, 5.8): variable a"));
 }
+
+} // namespace lockstep::test::examine_command_test

@@ -9,8 +9,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/cli/run_program.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::examine_reference_test {
+
 using Catch::Contains;
 
 namespace {
@@ -400,3 +400,5 @@ TEST_CASE("examine --reference: a store or an atomic operation that is missing i
         CHECK_THAT(wrong.out, Contains("note      without a counterpart in the reference: " + line));
     }
 }
+
+} // namespace lockstep::test::examine_reference_test

@@ -9,7 +9,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::explain_command_test {
+
 using test::refusal;
 using test::run_lockstep;
 
@@ -237,3 +238,5 @@ TEST_CASE("explain_command: a trace build that does not compile is told with fil
                         setting.shaders.path()})
               .status == 0);
 }
+
+} // namespace lockstep::test::explain_command_test

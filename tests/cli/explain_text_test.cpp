@@ -7,8 +7,8 @@
 #include "tests/cli/run_program.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::explain_text_test {
+
 using Catch::Contains;
 using Catch::Matches;
 
@@ -114,3 +114,5 @@ TEST_CASE("debug: a pass without a text has no lines to go by") {
                      {.standard_input = "line\n"});
     CHECK_THAT(outcome.err, Contains("no lines of a shader's text: this pass has no text that is run"));
 }
+
+} // namespace lockstep::test::explain_text_test

@@ -9,7 +9,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::foreign_misuse_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -75,3 +76,5 @@ TEST_CASE("foreign misuse: #version may stand in a file that is included") {
     INFO(outcome.err);
     CHECK(outcome.status == 0);
 }
+
+} // namespace lockstep::test::foreign_misuse_test

@@ -12,7 +12,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::foreign_shaders_test {
+
 namespace fs = std::filesystem;
 using test::run_lockstep;
 
@@ -98,3 +99,5 @@ TEST_CASE(
     }
     CHECK(count == 15);
 }
+
+} // namespace lockstep::test::foreign_shaders_test

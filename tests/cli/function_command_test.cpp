@@ -16,8 +16,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/cli/run_program.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::function_command_test {
+
 using Catch::Contains;
 
 namespace {
@@ -675,3 +675,5 @@ TEST_CASE("function: a port without precise is legal beside its original, as eit
     CHECK(wrong.status == 1);
     CHECK_THAT(wrong.out, Contains("verdict   DIVERGENT"));
 }
+
+} // namespace lockstep::test::function_command_test

@@ -7,7 +7,8 @@
 
 #include "tests/cli/cli_checks.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::hostile_json_test {
+
 using Catch::Contains;
 using test::refusal;
 using test::run_lockstep;
@@ -83,3 +84,5 @@ TEST_CASE("hostile json: a capsule without its scene's options names what is mis
                                  .string();
     CHECK(refusal(run_lockstep({"capsule", "show", file})) == file + ": /: the key \"options\" is missing");
 }
+
+} // namespace lockstep::test::hostile_json_test

@@ -11,7 +11,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::merge_test {
+
 using Catch::Contains;
 using test::joined;
 using test::refusal;
@@ -388,3 +389,5 @@ TEST_CASE("check: of a run here, too, some frames are judged alone") {
     CHECK(counts("6..9", 0) == whole);
     CHECK_THAT(refusal(run_lockstep(live.command({"--frames", "6..9", "--mode", "free"}))), Contains("--mode free"));
 }
+
+} // namespace lockstep::test::merge_test

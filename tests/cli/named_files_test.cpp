@@ -8,8 +8,9 @@
 #include "tests/cli/run_program.hpp"
 #include "tests/temporary_folder.hpp"
 
+namespace lockstep::test::named_files_test {
+
 /// Scenes that name files: graphs and a texture.
-using namespace lockstep;
 using Catch::Contains;
 using test::refusal;
 using test::run_lockstep;
@@ -105,3 +106,5 @@ TEST_CASE("named files: none is overwritten by a run that reads it") {
     CHECK_THAT(refusal(run_lockstep({"render", scenes.texture, "--side", "cpu", "-o", scenes.picture})),
                Catch::EndsWith(reads));
 }
+
+} // namespace lockstep::test::named_files_test

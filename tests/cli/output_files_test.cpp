@@ -10,7 +10,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::output_files_test {
+
 using test::run_lockstep;
 namespace fs = std::filesystem;
 
@@ -358,3 +359,5 @@ TEST_CASE("output_files: they are there where nobody reads the report, or it can
     CHECK_THAT(text_of(report), Catch::StartsWith("{\n") && Catch::EndsWith("}\n"));
     CHECK(setting.left() == Names{"report.json"});
 }
+
+} // namespace lockstep::test::output_files_test

@@ -9,7 +9,8 @@
 
 #include "tests/cli/cli_checks.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::own_shader_page_test {
+
 using test::run_lockstep;
 
 namespace {
@@ -75,3 +76,5 @@ TEST_CASE("own shader page: explain shows the example's own output") {
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.out, Catch::Contains("  trace_particle_min_length ") && Catch::Contains("every bit agrees"));
 }
+
+} // namespace lockstep::test::own_shader_page_test

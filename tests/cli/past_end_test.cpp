@@ -9,7 +9,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::past_end_test {
+
 using Catch::Contains;
 using test::plant;
 using test::refusal;
@@ -93,3 +94,5 @@ TEST_CASE("past end: shipped and foreign compute stages write nothing there") {
         CHECK_THAT(outcome.out, Contains("AGREE"));
     }
 }
+
+} // namespace lockstep::test::past_end_test

@@ -12,7 +12,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::report_page_test {
+
 using test::run_lockstep;
 namespace fs = std::filesystem;
 
@@ -189,3 +190,5 @@ TEST_CASE("report page: a capsule that cannot be made is told on standard error,
     CHECK_THAT(setting.head().at("report").at("notes").back().get<std::string>(),
                Catch::StartsWith("no capsule of the first divergent particle: "));
 }
+
+} // namespace lockstep::test::report_page_test

@@ -6,7 +6,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::scene_errors_test {
+
 using test::refusal;
 using test::run_lockstep;
 
@@ -84,3 +85,5 @@ TEST_CASE("scene_errors: every verb that runs a scene refuses one that is not th
     }
     CHECK(refusal(run_lockstep({"hash", "data/scenes"})) == "data/scenes: cannot be read: Is a directory");
 }
+
+} // namespace lockstep::test::scene_errors_test

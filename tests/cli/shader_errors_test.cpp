@@ -10,7 +10,8 @@
 #include "tests/skip.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shader_errors_test {
+
 using test::refusal;
 using test::run_lockstep;
 
@@ -239,3 +240,5 @@ TEST_CASE("shader_errors: a storage buffer that nobody binds is refused on a GL 
         return test::skip("this Mesa breaks when it is to leave out GL_ARB_program_interface_query", "");
     CHECK_THAT(old.err, Catch::Contains("nothing is given for storage buffer Step, and this GL is too old to say"));
 }
+
+} // namespace lockstep::test::shader_errors_test

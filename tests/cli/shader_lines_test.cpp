@@ -8,7 +8,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shader_lines_test {
+
 using Catch::Contains;
 using test::plant;
 using test::refusal;
@@ -83,3 +84,5 @@ TEST_CASE("shader lines: an error in the first lines of a function's file names 
     CHECK_THAT(said("#version 330 core\nfloat f(float x) { return x + nothing; }\n"),
                Catch::StartsWith("shader es.glsl:2: "));
 }
+
+} // namespace lockstep::test::shader_lines_test

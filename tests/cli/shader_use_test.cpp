@@ -12,7 +12,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shader_use_test {
+
 using Catch::Contains;
 using test::refusal;
 using test::run_lockstep;
@@ -279,3 +280,5 @@ TEST_CASE("shader use: a folder named as the shipped one has foreign files alone
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.out, Contains("\nshaders   foreign: shaders/collision_pass.vert; shipped: "));
 }
+
+} // namespace lockstep::test::shader_use_test

@@ -10,7 +10,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shader_warnings_test {
+
 using Catch::Contains;
 using test::plant;
 using test::refusal;
@@ -168,3 +169,5 @@ TEST_CASE("shader warnings: an error in the first lines of a function's file nam
     CHECK_THAT(said("#version 330 core\nfloat f(float x) { return x + nothing; }\n"),
                Catch::StartsWith("shader es.glsl:2: "));
 }
+
+} // namespace lockstep::test::shader_warnings_test

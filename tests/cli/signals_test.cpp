@@ -8,7 +8,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::signals_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -56,3 +57,5 @@ TEST_CASE("signals: a recording that one ends goes away") {
         setting.ends_by(
             signal, {"record", "--gl", test::software_gl(), "--frames", "100000000", "-o", setting.path("run.h5")}, 1);
 }
+
+} // namespace lockstep::test::signals_test

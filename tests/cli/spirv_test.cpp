@@ -16,7 +16,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::spirv_test {
+
 namespace fs = std::filesystem;
 using Catch::Contains;
 
@@ -254,3 +255,5 @@ TEST_CASE("SPIR-V: a damaged module is refused in one line, or runs; it crashes 
         CHECK((outcome.status != 2 || !test::refusal(outcome).empty()));
     }
 }
+
+} // namespace lockstep::test::spirv_test

@@ -7,7 +7,8 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::study_test {
+
 using test::refusal;
 using test::run_lockstep;
 
@@ -250,3 +251,5 @@ TEST_CASE("study: the remedies' table, with and without GL") {
     CHECK(cost.status == 0);
     CHECK_THAT(cost.out, Catch::Contains("AGREE") && !Catch::Contains("DIFFER"));
 }
+
+} // namespace lockstep::test::study_test

@@ -11,7 +11,8 @@
 #include "tests/cli/run_program.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::systems_test {
+
 using Catch::Contains;
 using test::refusal;
 using test::run_lockstep;
@@ -450,3 +451,5 @@ TEST_CASE("cli capsule: of passes with one name each is reached by its number, a
     CHECK_THAT(refusal(run_lockstep(on_gl({"explain", scene, "--frame", "0", "--pass", "77", "--item", "100,100"}))),
                Contains("--pass: there is no pass '77'; there are "));
 }
+
+} // namespace lockstep::test::systems_test

@@ -11,7 +11,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::terminal_test {
+
 using test::run_lockstep;
 using test::run_lockstep_on_terminal;
 
@@ -122,3 +123,5 @@ TEST_CASE("terminal: Ctrl-C ends with a verdict on the frames done so far, marke
     }
     CHECK(test::names_in(folder.path()) == std::vector<std::string>{"report.json", "scene.json"});
 }
+
+} // namespace lockstep::test::terminal_test

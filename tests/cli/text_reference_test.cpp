@@ -9,8 +9,8 @@
 #include "tests/cli/run_program.hpp"
 #include "tests/shipped_shaders.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::text_reference_test {
+
 using Catch::Contains;
 
 namespace {
@@ -346,3 +346,5 @@ void main() {
         checked({"--reference", own, "--shaders", drawn("precise", "a_Position + world * scale", "precise ")}).status ==
         0);
 }
+
+} // namespace lockstep::test::text_reference_test

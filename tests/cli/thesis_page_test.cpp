@@ -11,7 +11,7 @@
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::thesis_page_test {
 
 namespace {
 
@@ -85,3 +85,5 @@ TEST_CASE("thesis page: its commands that need no mesh run as printed, and the h
     CHECK(run >= 10);
     CHECK(numbers == 12);
 }
+
+} // namespace lockstep::test::thesis_page_test

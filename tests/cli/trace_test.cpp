@@ -11,7 +11,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::trace_test {
+
 using Catch::Contains;
 using test::refusal;
 using test::run_lockstep;
@@ -274,3 +275,5 @@ TEST_CASE("record: the same run is the same file, byte by byte, for any number o
     std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5 would keep the second
     CHECK((one == recorded("7")));
 }
+
+} // namespace lockstep::test::trace_test

@@ -11,7 +11,8 @@
 #include "tests/shader_clock.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::verdict_test {
+
 using test::run_lockstep;
 
 namespace {
@@ -377,3 +378,5 @@ TEST_CASE("verdict: bench has check's words and status") {
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.out, Catch::Contains(" LEGAL\n"));
 }
+
+} // namespace lockstep::test::verdict_test

@@ -12,7 +12,7 @@
 #include "crosscheck/scene/surface.hpp"
 #include "tests/random_positions.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::answers_at_obstacles_test {
 
 namespace {
 
@@ -83,3 +83,5 @@ TEST_CASE("answers at obstacles: depth answers behind a surface alone, the image
     for (const auto& hits : {hits_of_octree(corner), hits_in_cdt(corner), hits_of_depth(corner, Profile{})})
         CHECK(hits == std::vector{false, false, false, false});
 }
+
+} // namespace lockstep::test::answers_at_obstacles_test

@@ -9,7 +9,7 @@
 #include "reference/collision/render_pass.hpp"
 #include "reference/model/camera.hpp"
 
-namespace lockstep {
+namespace lockstep::test::billboard_test {
 namespace {
 
 /// Looks down -z, 90 degrees: clip x, y are view x, y and w is the distance; near 1, far 3.
@@ -95,4 +95,4 @@ TEST_CASE("billboard: a particle's square is taken through the render camera", "
     CHECK(b.high.y == 0.25F);
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::billboard_test

@@ -19,8 +19,7 @@
 #include "tests/collision/collision_scenes.hpp"
 #include "tests/collision/deviating_step.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::cause_test {
 
 namespace {
 
@@ -283,3 +282,5 @@ TEST_CASE("cause: what is no named deviation is never said to be one") {
     CHECK(mixed.divergent > 0);
     CHECK_FALSE(mixed.explains_all());
 }
+
+} // namespace lockstep::test::cause_test

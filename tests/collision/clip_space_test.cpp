@@ -10,8 +10,7 @@
 #include "reference/collision/obstacle_pass.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::clip_space_test {
 
 namespace {
 
@@ -151,3 +150,5 @@ TEST_CASE("clip space: a frame's settings hold from it on, and the scene's befor
     CHECK(frame_params(scene, 99).constants.tick == 1.0F);
     CHECK(frame_params(scene, 99).collision_proj_view == glm::mat4(2.0F));
 }
+
+} // namespace lockstep::test::clip_space_test

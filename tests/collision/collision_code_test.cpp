@@ -7,7 +7,7 @@
 
 #include "reference/collision/collision_code.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::collision_code_test {
 
 namespace {
 
@@ -126,3 +126,5 @@ TEST_CASE("collision code: NaN is code 0 in rgba8, and stays NaN in the float fo
     for (const float x : {half(nan), half(-nan), CollisionCode{FrameParams{}}.encode(glm::vec3(nan)).x})
         CHECK(x != x);
 }
+
+} // namespace lockstep::test::collision_code_test

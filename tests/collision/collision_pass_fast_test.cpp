@@ -15,8 +15,7 @@
 #include "tests/collision/collision_scenes.hpp"
 #include "tests/uneven_roots.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::collision_pass_fast_test {
 
 namespace {
 
@@ -381,3 +380,5 @@ TEST_CASE("fast collision: the texels points are drawn to are those of the obvio
                 CHECK(while_drawing == texels);
             }
 }
+
+} // namespace lockstep::test::collision_pass_fast_test

@@ -8,8 +8,7 @@
 #include "reference/collision/collision_pass.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::collision_pass_test {
 
 namespace {
 
@@ -361,3 +360,5 @@ TEST_CASE("collision: the profile's order of sums reaches distance, direction an
     check(DotOrder::right_to_left, 0x1.80e2d4p+1F, 0x1.7da938p-1F);
     check(DotOrder::fused_chain, 0x1.80e2d6p+1F, 0x1.7da936p-1F);
 }
+
+} // namespace lockstep::test::collision_pass_test

@@ -12,8 +12,7 @@
 #include "reference/collision/collision_pass.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::collision_properties_test {
 
 namespace {
 
@@ -227,3 +226,5 @@ TEST_CASE("collision property: subnormals are flushed in every thread, or in non
     }
     omp_set_num_threads(threads);
 }
+
+} // namespace lockstep::test::collision_properties_test

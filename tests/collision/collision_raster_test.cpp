@@ -9,8 +9,7 @@
 #include "reference/collision/collision_pass.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::collision_raster_test {
 
 namespace {
 
@@ -187,3 +186,5 @@ TEST_CASE("raster: the texels of a grid of points, one in each, hold each its ow
     for (std::size_t i = 0; i < positions.size(); ++i)
         CHECK(drawn.cdt.texels[i] == glm::vec4(positions[i], 1.0F));
 }
+
+} // namespace lockstep::test::collision_raster_test

@@ -12,7 +12,8 @@
 #include "gpu/collision/collision_texture.hpp"
 #include "tests/gpu/any_context.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::collision_texture_test {
+
 using test::open_context;
 
 namespace {
@@ -127,3 +128,5 @@ TEST_CASE("collision texture: a size GL does not allow is told with what it does
     CHECK_THROWS_WITH(CollisionTexture(limit + 1, 1, CdtFormat::rgba8), told(limit + 1, 1));
     CHECK_THROWS_WITH(CollisionTexture(1, 0, CdtFormat::rgba8), told(1, 0));
 }
+
+} // namespace lockstep::test::collision_texture_test

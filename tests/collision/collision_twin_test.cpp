@@ -11,8 +11,7 @@
 #include "reference/with_arithmetic.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::collision_twin_test {
 
 namespace {
 
@@ -100,3 +99,5 @@ TEST_CASE("collision twin: NaN, infinities, subnormals and coinciding positions"
                 check_equal(scene, profile);
             }
 }
+
+} // namespace lockstep::test::collision_twin_test

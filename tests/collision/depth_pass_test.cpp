@@ -17,8 +17,7 @@
 #include "reference/model/error.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::depth_pass_test {
 
 namespace {
 
@@ -182,3 +181,5 @@ TEST_CASE("depth pass: switches that it does not know are told") {
         CHECK_THROWS_WITH(check_switches(switches), Catch::Contains("search") && Catch::StartsWith("switch "));
     }
 }
+
+} // namespace lockstep::test::depth_pass_test

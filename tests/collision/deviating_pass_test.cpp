@@ -14,8 +14,7 @@
 #include "tests/collision/collision_scenes.hpp"
 #include "tests/collision/deviating_step.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::deviating_pass_test {
 
 namespace {
 
@@ -145,3 +144,5 @@ TEST_CASE("mistakes: every named one comes by itself from the sites of the step,
     }
     CHECK(show > mistakes.size() / 3);
 }
+
+} // namespace lockstep::test::deviating_pass_test

@@ -17,8 +17,7 @@
 #include "tests/collision/collision_scenes.hpp"
 #include "tests/uneven_roots.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::driver_habits_test {
 
 /// What a driver does where GL leaves it open, or departs from it: legal as far as the probe measured it.
 namespace {
@@ -130,3 +129,5 @@ TEST_CASE(
     CHECK(kind({just_outside, 0.125F, 3.0F}, 7, 4) == DifferenceClass::divergent);
     CHECK(kind({-just_outside, 0.125F, 0.25F}, 0, 4) == DifferenceClass::divergent); // an edge is the lower pixel's
 }
+
+} // namespace lockstep::test::driver_habits_test

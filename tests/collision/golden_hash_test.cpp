@@ -8,7 +8,8 @@
 #include "reference/model/state_hash.hpp"
 #include "tests/golden.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::golden_hash_test {
+
 using test::Golden;
 
 namespace {
@@ -67,3 +68,5 @@ TEST_CASE("golden hash: the same for 1, 2 and 4 threads") {
     }
     omp_set_num_threads(before);
 }
+
+} // namespace lockstep::test::golden_hash_test

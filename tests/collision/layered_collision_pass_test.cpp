@@ -13,8 +13,7 @@
 #include "reference/model/error.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::layered_collision_pass_test {
 
 namespace {
 
@@ -358,3 +357,5 @@ TEST_CASE("layered collision: switches that do not go with remedies are told") {
     CHECK_THAT(error({{"response", "mutual"}, {"cdt_cameras", "2"}}), Catch::StartsWith("switch cdt_cameras: "));
     CHECK_THAT(error({{"search", "octree"}, {"cdt_cameras", "2"}}), Catch::StartsWith("switch search: "));
 }
+
+} // namespace lockstep::test::layered_collision_pass_test

@@ -12,8 +12,7 @@
 #include "reference/model/same_bits.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::legal_outcomes_test {
 
 namespace {
 
@@ -189,3 +188,5 @@ TEST_CASE(
             CHECK_FALSE(admits(outcomes_for(scene, 0, profile, known, later), later));
         }
 }
+
+} // namespace lockstep::test::legal_outcomes_test

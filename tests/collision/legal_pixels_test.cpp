@@ -9,7 +9,7 @@
 
 #include "crosscheck/collision/judge/render_judge.hpp"
 
-namespace lockstep {
+namespace lockstep::test::legal_pixels_test {
 namespace {
 
 constexpr KnownOperations glsl_alone{};
@@ -184,4 +184,4 @@ TEST_CASE("render judge: a driver on a sub-pixel grid of its own is legal where 
               .count(DifferenceClass::divergent) > 0);
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::legal_pixels_test

@@ -13,8 +13,6 @@
 #include "reference/model/error.hpp"
 #include "tests/nanoflann_search.hpp"
 
-using namespace lockstep;
-
 namespace lockstep {
 
 bool operator==(const Neighbourhood& a, const Neighbourhood& b) {
@@ -26,6 +24,8 @@ std::ostream& operator<<(std::ostream& out, const Neighbourhood& n) {
 }
 
 } // namespace lockstep
+
+namespace lockstep::test::neighbours_test {
 
 namespace {
 
@@ -329,3 +329,5 @@ TEST_CASE("neighbours: range 0 finds nothing, coincident or not", "[neighbours]"
     CHECK(found.particle[0] == Neighbourhood{});
     CHECK(found.ignored == 1);
 }
+
+} // namespace lockstep::test::neighbours_test

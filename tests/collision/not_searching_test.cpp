@@ -12,8 +12,7 @@
 #include "reference/model/error.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::not_searching_test {
 
 namespace {
 
@@ -138,3 +137,5 @@ TEST_CASE("presets: the listing's is the listing, line by line; paper's has the 
         CHECK_NOTHROW(preset(name));
     CHECK_THROWS_WITH(preset("lists"), "unknown preset 'lists'; the presets are listing, paper, corrected, exact");
 }
+
+} // namespace lockstep::test::not_searching_test

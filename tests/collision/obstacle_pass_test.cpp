@@ -18,7 +18,7 @@
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 
-namespace lockstep {
+namespace lockstep::test::obstacle_pass_test {
 namespace {
 
 /// An orthographic view: world x, y in -1..1 fill the image, world z becomes clip z.
@@ -350,4 +350,4 @@ TEST_CASE("obstacle pass: a simulation that keeps the drawn obstacles draws as o
     CHECK(seen.size() == 4);
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::obstacle_pass_test

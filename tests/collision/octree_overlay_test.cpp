@@ -9,7 +9,7 @@
 #include "crosscheck/collision/report/octree_overlay.hpp"
 #include "tests/random_positions.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::octree_overlay_test {
 
 namespace {
 
@@ -60,3 +60,5 @@ TEST_CASE("octree overlay: every box holds a particle, and every particle in the
     }
     CHECK(octree_overlay(positions, 1e-6F).empty());
 }
+
+} // namespace lockstep::test::octree_overlay_test

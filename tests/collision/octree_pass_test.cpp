@@ -8,7 +8,7 @@
 #include "reference/collision/octree_pass.hpp"
 #include "tests/random_positions.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::octree_pass_test {
 
 namespace {
 
@@ -178,3 +178,5 @@ TEST_CASE("octree pass: obstacles take part as their vertices, unless they are o
     params.switches.obstacles_in_cdt = ObstaclesInCdt::off;
     CHECK(octree_partners(before.position, obstacles, params, Profile{})[0] == -1);
 }
+
+} // namespace lockstep::test::octree_pass_test

@@ -5,7 +5,7 @@
 #include "gpu/collision/octree.hpp"
 #include "tests/random_positions.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::octree_test {
 
 namespace {
 
@@ -95,3 +95,5 @@ TEST_CASE("octree: the node texture leads from the root to every node") {
     }
     CHECK(seen == std::vector<int>(Octree::node_count, 1));
 }
+
+} // namespace lockstep::test::octree_test

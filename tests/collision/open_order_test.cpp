@@ -12,8 +12,7 @@
 #include "reference/readings/append.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::open_order_test {
 
 namespace {
 
@@ -115,3 +114,5 @@ TEST_CASE("sums in any order: of multiples of one power of two that cannot be ro
     CHECK_FALSE(exact_sum(std::vector<Interval>{1.0F, 0x1p-24F}));
     CHECK_FALSE(exact_sum(std::vector<Interval>{1.0F, Interval(0.5, 1.0)}));
 }
+
+} // namespace lockstep::test::open_order_test

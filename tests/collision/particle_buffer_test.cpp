@@ -12,7 +12,8 @@
 #include "tests/gpu/one_texel_target.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::particle_buffer_test {
+
 using test::open_context;
 using test::TemporaryFolder;
 
@@ -181,3 +182,5 @@ void main() {
     CHECK(same_bits(original, read));
     check_gl("copy");
 }
+
+} // namespace lockstep::test::particle_buffer_test

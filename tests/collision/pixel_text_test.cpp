@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep {
+namespace lockstep::test::pixel_text_test {
 namespace {
 
 using Catch::Contains;
@@ -121,4 +121,4 @@ TEST_CASE("pixel text: arithmetic=exact leaves one that is seen, and tells who e
                Contains("particle 0 ") && Contains("particle 1 (inside its rim)") && !Contains("depth"));
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::pixel_text_test

@@ -15,7 +15,8 @@
 #include "reference/model/profile.hpp"
 #include "tests/collision/deviating_step.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::power_test {
+
 using test::deviating_step;
 
 namespace {
@@ -114,3 +115,5 @@ TEST_CASE("power: a run in which nothing collides shows no mistake of the search
         if (mistake.name == "last_found_instead_of_nearest")
             CHECK(mistake.why_not == "nothing collided");
 }
+
+} // namespace lockstep::test::power_test

@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lockstep {
+namespace lockstep::test::render_pass_test {
 namespace {
 
 /// Camera at z = 3 looking down -z.
@@ -179,4 +179,4 @@ TEST_CASE("render pass: the picture does not depend on the number of threads", "
     omp_set_num_threads(threads);
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::render_pass_test

@@ -27,8 +27,7 @@
 #include "tests/report_parts.hpp"
 #include "tests/uneven_roots.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::report_classes_test {
 
 namespace {
 
@@ -364,3 +363,5 @@ TEST_CASE("report of the collision step: a table whose intermediate values were 
     check(scene, profile, gpu, options);
     CHECK(planted);
 }
+
+} // namespace lockstep::test::report_classes_test

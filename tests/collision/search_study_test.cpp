@@ -24,8 +24,7 @@
 #include "tests/collision/collision_scenes.hpp"
 #include "tests/skip.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::search_study_test {
 
 namespace {
 
@@ -463,3 +462,5 @@ TEST_CASE("search study: layers and a second camera find more, and eight layers 
         CHECK(n.pairs - n.found_pairs == n.missed_pairs[static_cast<std::size_t>(Miss::outside_image)]);
     }
 }
+
+} // namespace lockstep::test::search_study_test

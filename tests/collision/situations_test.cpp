@@ -9,8 +9,7 @@
 #include "reference/model/profile.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::situations_test {
 
 namespace {
 
@@ -49,3 +48,5 @@ TEST_CASE("situations: those that are counted over all particles are the same ho
         }
     }
 }
+
+} // namespace lockstep::test::situations_test

@@ -6,7 +6,8 @@
 #include "reference/model/error.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::start_file_test {
+
 using Catch::Contains;
 using Catch::EndsWith;
 
@@ -102,3 +103,5 @@ TEST_CASE("start file: what is wrong in it is told by its line") {
     CHECK_THROWS_WITH(load_scene(folder.write("scene.json", R"({"start": "none.csv"})")), Contains("none.csv"));
     CHECK_THROWS_WITH(load_scene(folder.write("scene.json", "{}")), Contains("emitters"));
 }
+
+} // namespace lockstep::test::start_file_test

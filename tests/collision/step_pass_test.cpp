@@ -20,8 +20,7 @@
 #include "reference/model/profile.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::step_pass_test {
 
 namespace {
 
@@ -115,3 +114,5 @@ TEST_CASE("step pass: every search's twin has the bits of its pass, and its lega
                 CHECK(outside == 0);
             }
 }
+
+} // namespace lockstep::test::step_pass_test

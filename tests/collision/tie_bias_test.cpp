@@ -16,8 +16,7 @@
 #include "reference/model/collision/collision_state.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::tie_bias_test {
 
 namespace {
 
@@ -205,3 +204,5 @@ TEST_CASE("tie bias: a lean counts in both halves, and a place once") {
     CHECK(leans.one_sided(Leans::right));
     CHECK_FALSE(leans.one_sided(Leans::left));
 }
+
+} // namespace lockstep::test::tie_bias_test

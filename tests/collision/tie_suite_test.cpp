@@ -16,8 +16,7 @@
 #include "reference/window.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::tie_suite_test {
 
 namespace {
 
@@ -447,3 +446,5 @@ TEST_CASE("ties: equal and adjacent depths") {
     }
     CHECK(either > 500);
 }
+
+} // namespace lockstep::test::tie_suite_test

@@ -29,8 +29,7 @@
 #include "tests/collision/collision_scenes.hpp"
 #include "tests/collision/deviating_step.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::verdict_test {
 
 namespace {
 
@@ -105,8 +104,8 @@ TEST_CASE("verdict: faults of one bit, anywhere in the state, are located exactl
         CHECK_FALSE(first->wrong.operation.empty());
         const Difference& shown = first->wrong.difference;
         CHECK(collision_schema()[shown.field].name == field_of(c));
-        CHECK(same_bits(shown.reference, before));
-        CHECK(same_bits(shown.gpu, component(state, c)));
+        CHECK(lockstep::same_bits(shown.reference, before));
+        CHECK(lockstep::same_bits(shown.gpu, component(state, c)));
     }
     CHECK(planted > 900);
 }
@@ -126,7 +125,7 @@ TEST_CASE("verdict: a decision that alone explains the state where it is made ot
         int differing = 0;
         for (std::size_t i = 0; i < 1500; ++i) {
             const ParticleState wrong = deviating_step(inputs, i, frame.profile, one.made);
-            if (same_bits(wrong, frame.reference[i]))
+            if (lockstep::same_bits(wrong, frame.reference[i]))
                 continue;
             frame.gpu.set(i, wrong);
             const WrongStep step = wrong_step_of_particle(frame.judged(), i);
@@ -284,7 +283,7 @@ TEST_CASE("verdict: an obstacle's texel may lie within the bound of its interpol
             if (position.z < 0.5F) // a particle's
                 continue;
             frame.gpu_cdt.texels[i] = code.encode(position + 0.9F * bound);
-            moved += !same_bits(frame.gpu_cdt.texels[i], frame.reference_cdt.texels[i]);
+            moved += !lockstep::same_bits(frame.gpu_cdt.texels[i], frame.reference_cdt.texels[i]);
         }
         INFO(moved);
         CHECK(moved > 0);
@@ -433,3 +432,5 @@ TEST_CASE("verdict: a point at a pixel's edge is on one of its two texels, neith
     CHECK(worst(false, false) == DifferenceClass::divergent);
     CHECK(worst(true, true) == DifferenceClass::divergent);
 }
+
+} // namespace lockstep::test::verdict_test

@@ -5,8 +5,8 @@
 #include "gpu/gl.hpp"
 #include "tests/dust/rooms.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::barriers_test {
+
 namespace dust = lockstep::dust;
 
 namespace {
@@ -62,3 +62,5 @@ TEST_CASE(
             CHECK_FALSE(differs);
     }
 }
+
+} // namespace lockstep::test::barriers_test

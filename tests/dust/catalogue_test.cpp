@@ -13,9 +13,9 @@
 #include "tests/dust/one_grain.hpp"
 #include "tests/shaders_with.hpp"
 
+namespace lockstep::test::catalogue_test {
+
 /// The scenes of data/scenes/dust/catalogue: what goes wrong in the source's demo, with its cause and without.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
@@ -473,3 +473,5 @@ TEST_CASE("dust catalogue coarse_random: a million numbers are 17,000, and grain
     CHECK(seeds(900'000.0F) <= 17);
     CHECK(seeds(100'000.0F) == 60);
 }
+
+} // namespace lockstep::test::catalogue_test

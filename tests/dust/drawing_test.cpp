@@ -10,8 +10,8 @@
 #include "tests/dust/one_grain.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::drawing_test {
+
 namespace dust = lockstep::dust;
 
 namespace {
@@ -205,3 +205,5 @@ TEST_CASE("dust drawing: with draw_bounds=box a camera that sees dust outside th
     s.switches.draw_bounds = dust::DrawBounds::box;
     CHECK_FALSE(dust::picture(host_of(s), one_grain({40.0F, 0.0F, 0.0F}), 0).how.indices.empty());
 }
+
+} // namespace lockstep::test::drawing_test

@@ -6,9 +6,9 @@
 #include "crosscheck/dust/scene.hpp"
 #include "tests/dust/one_grain.hpp"
 
+namespace lockstep::test::failures_test {
+
 /// What goes wrong in the source's demo, with its cause and, where there is one, without.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
@@ -428,3 +428,5 @@ TEST_CASE("dust remedies and readings: the shaders agree with the twins in each"
     for (const CheckReport& report : reports)
         CHECK(report.verdict == Verdict::agree);
 }
+
+} // namespace lockstep::test::failures_test

@@ -24,8 +24,8 @@
 #include "reference/system/item_twin.hpp"
 #include "tests/dust/one_grain.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::fast_test {
+
 namespace dust = lockstep::dust;
 namespace field = lockstep::dust::field;
 
@@ -292,3 +292,5 @@ TEST_CASE("dust bench cpu_crawl: the loop on the CPU, and the upload after it, b
         fmt::print("{:>9} {:<16} {:>7} {:>9.2f} {:>9}\n", count, "black_hole_gpu", "kernel", median(taken), "none");
     }
 }
+
+} // namespace lockstep::test::fast_test

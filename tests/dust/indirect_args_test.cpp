@@ -9,7 +9,7 @@
 #include "tests/dust/dust_run.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::indirect_args_test {
 
 TEST_CASE("dust drawing: args_too_small: indirect arguments of fewer than 20 bytes are refused, and told") {
     if (!test::gl())
@@ -44,3 +44,5 @@ TEST_CASE("dust drawing: args_too_small: indirect arguments of fewer than 20 byt
     gl::BindVertexArray(0);
     gl::UseProgram(0);
 }
+
+} // namespace lockstep::test::indirect_args_test

@@ -7,9 +7,9 @@
 #include "tests/dust/dust_run.hpp"
 #include "tests/temporary_folder.hpp"
 
+namespace lockstep::test::invariants_test {
+
 /// What must hold of the GPU's own states after every kernel, whatever the twins say.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
@@ -142,3 +142,5 @@ TEST_CASE("dust failure count_underflow: a count that is kept while the grains c
         CHECK((count == living) == !kept);
     }
 }
+
+} // namespace lockstep::test::invariants_test

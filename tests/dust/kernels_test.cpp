@@ -7,8 +7,8 @@
 #include "tests/dust/dust_run.hpp"
 #include "tests/shaders_with.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::kernels_test {
+
 namespace dust = lockstep::dust;
 
 namespace {
@@ -239,3 +239,5 @@ TEST_CASE("dust: the last group's idle threads write nothing") {
         return skip(gl().missing());
     expect_agreement(room(GENERATE(std::size_t{1}, std::size_t{63}, std::size_t{64}, std::size_t{65})), 10);
 }
+
+} // namespace lockstep::test::kernels_test

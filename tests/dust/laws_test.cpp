@@ -10,9 +10,9 @@
 #include "reference/model/random.hpp"
 #include "tests/dust/one_grain.hpp"
 
+namespace lockstep::test::laws_test {
+
 /// Laws of bounces off boxes and walls, by brute force in double; and the published hash in another program's hands.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
@@ -242,3 +242,5 @@ TEST_CASE("dust failure recheck_mismatch: in rounded arithmetic the cone's test 
     CHECK(pulled < 19'000); // on the border itself
     CHECK(immortal == 0);
 }
+
+} // namespace lockstep::test::laws_test

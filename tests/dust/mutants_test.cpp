@@ -15,8 +15,8 @@
 #include "tests/dust/rooms.hpp"
 #include "tests/text_mutants.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::mutants_test {
+
 namespace dust = lockstep::dust;
 
 namespace {
@@ -441,3 +441,5 @@ TEST_CASE("dust mutants: what the host hands over wrongly is found, and nine in 
     }
     CHECK(10 * with_cause >= 9 * all.size());
 }
+
+} // namespace lockstep::test::mutants_test

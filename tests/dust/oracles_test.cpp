@@ -10,9 +10,9 @@
 #include "reference/model/random.hpp"
 #include "tests/dust/one_grain.hpp"
 
+namespace lockstep::test::oracles_test {
+
 /// What must hold of any right dust system, found without its twins: closed forms, symmetries, counts, brute force.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
@@ -397,3 +397,5 @@ TEST_CASE("dust oracle: no shipped scene comes to a NaN") {
         }
     }
 }
+
+} // namespace lockstep::test::oracles_test

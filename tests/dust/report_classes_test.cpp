@@ -9,8 +9,8 @@
 #include "tests/system_reports.hpp"
 #include "tests/uneven_roots.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::report_classes_test {
+
 namespace dust = lockstep::dust;
 
 namespace {
@@ -92,3 +92,5 @@ TEST_CASE("dust report: a pass over no invocations is not exercised, though it r
     CHECK(report.verdict == Verdict::agree);
     CHECK_THAT(report_text(report, {"room", "", "", "", "resync", "", ""}), Catch::Contains(" ran over 0 invocations"));
 }
+
+} // namespace lockstep::test::report_classes_test

@@ -13,8 +13,8 @@
 #include "reference/model/state_hash.hpp"
 #include "tests/dust/one_grain.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::scenes_test {
+
 namespace dust = lockstep::dust;
 
 namespace {
@@ -276,3 +276,5 @@ TEST_CASE("dust scenes: huge numbers run, overflow as they must, and both sides 
         CHECK(report.verdict == Verdict::agree);
     }
 }
+
+} // namespace lockstep::test::scenes_test

@@ -10,9 +10,9 @@
 #include "reference/half.hpp"
 #include "tests/dust/one_grain.hpp"
 
+namespace lockstep::test::switches_test {
+
 /// The switches of the source (its open points), by their names, values and presets; and those that change few bits.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
@@ -285,3 +285,5 @@ TEST_CASE("dust switches: a run's text names the preset whose arithmetic it is, 
     settings.arithmetic = ArithmeticSwitch::plain;
     CHECK(text() == "corrected, but random=integer world=none");
 }
+
+} // namespace lockstep::test::switches_test

@@ -1,9 +1,9 @@
 #include "reference/dust/random.hpp"
 #include "tests/dust/one_grain.hpp"
 
+namespace lockstep::test::worked_numbers_test {
+
 /// Numbers that were worked out beforehand, in floats, by another program: nine digits are the float.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
@@ -175,3 +175,5 @@ TEST_CASE("dust by hand: the sine hash places grain 12345 and shades it, to the 
     CHECK(grains.position(0).x == -50.0F);
     CHECK(grains.count() == 12346);
 }
+
+} // namespace lockstep::test::worked_numbers_test

@@ -13,9 +13,9 @@
 #include "reference/fluid/shading.hpp"
 #include "tests/fluid/fluid_images.hpp"
 
+namespace lockstep::test::failures_test {
+
 /// The ways in which the published technique goes wrong, each with what is measured of it.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -391,3 +391,5 @@ TEST_CASE("fluid failures, flat_sphere: off the axis a flat sprite is narrower t
     CHECK(covered(fluid::Sphere::flat) == 58);
     CHECK(covered(fluid::Sphere::ray) == 60);
 }
+
+} // namespace lockstep::test::failures_test

@@ -8,8 +8,8 @@
 #include "tests/item_bits.hpp"
 #include "tests/uneven_roots.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::lanes_test {
+
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -82,3 +82,5 @@ TEST_CASE("fluid lanes: orders of sums are the driver's") {
     const fluid::HostPtr host = host_of(s);
     check_item_bits(fluid::system(host), profile, 1);
 }
+
+} // namespace lockstep::test::lanes_test

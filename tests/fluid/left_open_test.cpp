@@ -11,9 +11,9 @@
 #include "reference/fluid/by_driver.hpp"
 #include "tests/fluid/fluid_run.hpp"
 
+namespace lockstep::test::left_open_test {
+
 /// Fetches between texels, by drivers that are followed in them and by others.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -100,3 +100,5 @@ TEST_CASE("fluid left open: a report says on what a fetch rests, and which value
                                                 Contains("(probe: image: linear filter of a plane)"));
     CHECK(lines("exact", open_filter).empty());
 }
+
+} // namespace lockstep::test::left_open_test

@@ -15,7 +15,8 @@
 #include "reference/fluid/pixel_places.hpp"
 #include "reference/model/random.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::linear_laws_test {
+
 using namespace lockstep::fluid;
 
 namespace {
@@ -140,3 +141,5 @@ TEST_CASE("linear laws: a coordinate that is no number may give any of the image
         CHECK(behind.high - behind.low < 1e-3);
     }
 }
+
+} // namespace lockstep::test::linear_laws_test

@@ -8,7 +8,7 @@
 #include "reference/model/random.hpp"
 #include "reference/readings/mean_of_some.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::mean_of_some_test {
 
 namespace {
 
@@ -65,3 +65,5 @@ TEST_CASE("mean of some: anything, where nothing must be there or a term is no n
     CHECK(mean_of_some(std::vector<WeightedTerm>{{Interval::anything(), Interval(1.0F), false}}).any);
     CHECK_FALSE(mean_of_some(std::vector<WeightedTerm>{{Interval(1.0F), Interval(1.0F), false}}).any);
 }
+
+} // namespace lockstep::test::mean_of_some_test

@@ -11,8 +11,8 @@
 #include "tests/fluid/fluid_run.hpp"
 #include "tests/text_mutants.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::mutants_test {
+
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -281,3 +281,5 @@ TEST_CASE("fluid mutants: what the host hands over wrongly is found, and most ha
     }
     CHECK(10 * with_cause >= 6 * all.size());
 }
+
+} // namespace lockstep::test::mutants_test

@@ -10,7 +10,7 @@
 #include "reference/fluid/narrow_bound.hpp"
 #include "reference/model/random.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::narrow_bound_test {
 
 namespace {
 
@@ -139,3 +139,5 @@ TEST_CASE("narrow bound: anything, where a sample may be any number") {
                Interval(1.0F));
     CHECK(bound.mean().any);
 }
+
+} // namespace lockstep::test::narrow_bound_test

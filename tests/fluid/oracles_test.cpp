@@ -11,9 +11,9 @@
 #include "reference/model/state_hash.hpp"
 #include "tests/fluid/fluid_images.hpp"
 
+namespace lockstep::test::oracles_test {
+
 /// What a fluid's images have to be, found without the twins.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -366,3 +366,5 @@ TEST_CASE("fluid oracles: Fresnel's term is R0 at 0 degrees and 1 at 90, monoton
     CHECK(static_cast<float>(through.y) == 1.0F);
     CHECK(static_cast<float>(through.z) == 1.0F);
 }
+
+} // namespace lockstep::test::oracles_test

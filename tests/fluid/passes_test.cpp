@@ -7,8 +7,8 @@
 
 #include "tests/fluid/fluid_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::passes_test {
+
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -128,3 +128,5 @@ TEST_CASE("fluid passes: the GPU's clock runs through every pass, also through t
     }
     CHECK(filter_steps == 2);
 }
+
+} // namespace lockstep::test::passes_test

@@ -12,9 +12,10 @@
 
 #include "reference/fluid/point_coord.hpp"
 
+namespace lockstep::test::point_coord_test {
+
 /// What a driver makes of points, held to gl_PointCoord as measured (data/results/h200/points.txt: the size and the
 /// middle of a point, a pixel's centre, the coordinate there).
-using namespace lockstep;
 using namespace lockstep::fluid;
 
 namespace {
@@ -72,3 +73,5 @@ TEST_CASE(
     CHECK(legal(PointCoord::open, 0.0F, 0.125F) < 200);
     CHECK(legal(PointCoord::accurate) < 816);
 }
+
+} // namespace lockstep::test::point_coord_test

@@ -3,9 +3,9 @@
 
 #include "tests/fluid/fluid_run.hpp"
 
+namespace lockstep::test::point_sizes_test {
+
 /// Points of sizes that no driver draws: it clamps them (GL 4.5, 14.4).
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -68,3 +68,5 @@ TEST_CASE("point sizes: a profile has those that GL says") {
     CHECK(profile.point_sizes.largest >= 64.0F);
     CHECK(profile.point_sizes.largest < 65536.0F);
 }
+
+} // namespace lockstep::test::point_sizes_test

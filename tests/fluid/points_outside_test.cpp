@@ -10,9 +10,9 @@
 #include "reference/fluid/by_driver.hpp"
 #include "tests/fluid/fluid_run.hpp"
 
+namespace lockstep::test::points_outside_test {
+
 /// Points whose middle lies outside the view volume: by drivers that drop them, as GL says, and by others.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -102,3 +102,5 @@ TEST_CASE("points outside: a report says that a driver departs from GL, and whic
     CHECK(lines("points", {fluid::point_coord_row}).empty());
     CHECK_THAT(lines("points", {fluid::point_coord_row, fluid::cut_point_coord_row}), Contains("gl_PointCoord"));
 }
+
+} // namespace lockstep::test::points_outside_test

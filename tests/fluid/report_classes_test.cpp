@@ -2,8 +2,8 @@
 #include "tests/system_reports.hpp"
 #include "tests/uneven_roots.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::report_classes_test {
+
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -30,3 +30,5 @@ TEST_CASE("fluid report: a driver with uneven roots is legal, and each line is o
     const System system = fluid::system(host_of(small_heap()));
     check_whole_reports(system, profile_with_roots());
 }
+
+} // namespace lockstep::test::report_classes_test

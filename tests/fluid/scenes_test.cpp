@@ -10,8 +10,8 @@
 #include "reference/model/state_hash.hpp"
 #include "tests/fluid/fluid_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::scenes_test {
+
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -157,3 +157,5 @@ TEST_CASE("fluid scenes: the kept hashes, made anew", "[.][golden]") {
     std::filesystem::create_directories("data/golden/fluid");
     std::ofstream("data/golden/fluid/exact.json") << file.dump(2) << "\n";
 }
+
+} // namespace lockstep::test::scenes_test

@@ -8,9 +8,9 @@
 #include "reference/readings/values.hpp"
 #include "tests/fluid/fluid_run.hpp"
 
+namespace lockstep::test::sprite_boxes_test {
+
 /// The boxes outside of which a sphere is not tried.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -92,3 +92,5 @@ TEST_CASE("sprite boxes: hold every pixel that a sphere may cover, and hardly mo
                 CHECK(20 * quads.boxed < 28 * quads.pixels);
         }
 }
+
+} // namespace lockstep::test::sprite_boxes_test

@@ -7,9 +7,9 @@
 #include "reference/known_operations.hpp"
 #include "tests/fluid/fluid_run.hpp"
 
+namespace lockstep::test::thickness_test {
+
 /// What is legal of a thickness where the edges of many discs are open.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -68,3 +68,5 @@ TEST_CASE("thickness: what is legal is one set where twenty discs have their edg
         CHECK(legal.edges > 0);
     }
 }
+
+} // namespace lockstep::test::thickness_test

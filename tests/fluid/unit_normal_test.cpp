@@ -9,9 +9,9 @@
 #include "reference/known_operations.hpp"
 #include "tests/fluid/fluid_run.hpp"
 
+namespace lockstep::test::unit_normal_test {
+
 /// Normals of points that may be anywhere on their rays: legal sets where the cross product's own hold 0.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -117,3 +117,5 @@ TEST_CASE("unit normal: no normal of the published values is undefined, whatever
     CHECK(judged == 44 * 36 / 3);
     CHECK(undefined == 0);
 }
+
+} // namespace lockstep::test::unit_normal_test

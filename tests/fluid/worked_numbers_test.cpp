@@ -8,9 +8,9 @@
 #include "reference/fluid/sprite.hpp"
 #include "tests/fluid/fluid_images.hpp"
 
+namespace lockstep::test::worked_numbers_test {
+
 /// Numbers that were worked out beforehand, by another program: nine digits are the float.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace fluid = lockstep::fluid;
 
 namespace {
@@ -191,3 +191,5 @@ TEST_CASE("fluid worked numbers: the exponential is the float nearest to e^x, or
     CHECK(real_of(portable_exponential(r, fluid::site::in_exponent, Real(0.0F))) == 1.0F);
     CHECK(real_of(portable_exponential(r, fluid::site::in_exponent, Real(-87.5F))) == 0.0F);
 }
+
+} // namespace lockstep::test::worked_numbers_test

@@ -9,7 +9,7 @@
 
 #include "gpu/child_process.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::child_process_test {
 
 TEST_CASE("child process: gives any bytes, and throws what its work throws") {
     const std::string bytes("a\0b\xff\n", 5);
@@ -58,3 +58,5 @@ TEST_CASE("child process: one within the fence that gets no turn is no Error of 
     };
     CHECK_THROWS_AS(in_child({"it", 1, true}, stopped), ChildStarved);
 }
+
+} // namespace lockstep::test::child_process_test

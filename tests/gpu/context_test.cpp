@@ -10,7 +10,8 @@
 #include "gpu/shared_library.hpp"
 #include "tests/gpu/any_context.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::context_test {
+
 using test::open_context;
 using Backend = ContextRequest::Backend;
 
@@ -245,3 +246,5 @@ TEST_CASE("check_framebuffer: an incomplete framebuffer names its status") {
     CHECK_THROWS_WITH(check_framebuffer(GL_FRAMEBUFFER, "CDT"),
                       "CDT: framebuffer is not complete: GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT");
 }
+
+} // namespace lockstep::test::context_test

@@ -6,7 +6,8 @@
 #include "gpu/data_folder.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::data_folder_test {
+
 using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
@@ -51,3 +52,5 @@ TEST_CASE("data folder: an installed package comes before the source tree it was
     CHECK(shipped_scene("lattice") == fs::current_path() / "data/scenes/lattice.json");
     use_package_data("");
 }
+
+} // namespace lockstep::test::data_folder_test

@@ -17,7 +17,8 @@
 #include "tests/gpu/any_context.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::kept_probe_test {
+
 using test::open_context;
 namespace fs = std::filesystem;
 
@@ -150,3 +151,5 @@ TEST_CASE("kept probe: no folder of others, and none where there is none") {
     fs::permissions(folder.path(), fs::perms::all);
     CHECK(probe_folder() == std::nullopt);
 }
+
+} // namespace lockstep::test::kept_probe_test

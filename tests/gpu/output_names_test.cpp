@@ -8,7 +8,7 @@
 #include "tests/gpu/any_context.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::output_names_test {
 
 namespace {
 
@@ -52,3 +52,5 @@ TEST_CASE("output names: outputs in a block are captured by their own names, wit
         CHECK_NOTHROW(Program("step", load_stages({folder.path()}, "step", stages), captures));
     }
 }
+
+} // namespace lockstep::test::output_names_test

@@ -19,7 +19,8 @@
 #include "tests/gpu/probe_rows.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::probe_test {
+
 using probing::judge;
 
 using test::open_context;
@@ -292,3 +293,5 @@ TEST_CASE("points go to the same pixels without a geometry stage where the rows 
     };
     CHECK(points_alike_without_geometry() == (alike("points: viewport") && alike("points: depth")));
 }
+
+} // namespace lockstep::test::probe_test

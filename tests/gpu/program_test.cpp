@@ -11,7 +11,8 @@
 #include "tests/gpu/any_context.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::program_test {
+
 using test::open_context;
 using test::TemporaryFolder;
 
@@ -363,3 +364,5 @@ TEST_CASE("program: every built-in shader links with every switch") {
             }
     }
 }
+
+} // namespace lockstep::test::program_test

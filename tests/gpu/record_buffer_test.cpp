@@ -7,7 +7,8 @@
 #include "tests/gpu/one_texel_target.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::record_buffer_test {
+
 using test::open_context;
 using test::TemporaryFolder;
 
@@ -111,3 +112,5 @@ void main() {
     CHECK(original.columns == read.columns);
     check_gl("copy");
 }
+
+} // namespace lockstep::test::record_buffer_test

@@ -6,7 +6,7 @@
 
 #include "gpu/shader_log.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shader_log_test {
 
 namespace {
 
@@ -63,3 +63,5 @@ TEST_CASE("shader log: an unset variable is told from other warnings, in each dr
     CHECK(is_about_unset_variable({"a.vert:1", "C7050: \"junk\" might be used before being initialized"}));
     CHECK_FALSE(is_about_unset_variable({"a.vert:1", "C7011: implicit cast from \"int\" to \"float\""}));
 }
+
+} // namespace lockstep::test::shader_log_test

@@ -18,7 +18,8 @@
 #include "reference/model/error.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shader_source_test {
+
 using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
@@ -352,3 +353,5 @@ TEST_CASE("shader source: what a shipped stage computes is precise where it is h
     }
     CHECK(outputs >= 30);
 }
+
+} // namespace lockstep::test::shader_source_test

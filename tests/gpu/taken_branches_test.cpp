@@ -9,8 +9,9 @@
 #include "tests/gpu/any_context.hpp"
 #include "tests/temporary_folder.hpp"
 
+namespace lockstep::test::taken_branches_test {
+
 /// Which included files the preprocessor takes, held to the driver's own where that is known.
-using namespace lockstep;
 using test::TemporaryFolder;
 
 namespace {
@@ -113,3 +114,5 @@ TEST_CASE("taken branches: a file that only includes others is taken, and every 
         stage_of(folder, "#include \"outer.glsl\"\n#if 0" + include + "#endif", "float taken;\n");
     CHECK(taken_files(stage) == std::vector<bool>{true, true, true, false});
 }
+
+} // namespace lockstep::test::taken_branches_test

@@ -12,7 +12,7 @@
 #include "gpu/graph_glsl.hpp"
 #include "tests/skip.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::both_sides_test {
 
 namespace {
 
@@ -192,3 +192,5 @@ TEST_CASE("graphs: nodes are evaluated depth first, ports in their order, each o
     CHECK(text.find("n3 = i_t") < text.find("n2 = abs(n3)"));
     CHECK(text.find("n1 = sub(0.0, n3)") < text.find("n0 = add(n2, n1)"));
 }
+
+} // namespace lockstep::test::both_sides_test

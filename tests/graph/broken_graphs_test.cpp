@@ -14,7 +14,8 @@
 #include "reference/model/error.hpp"
 #include "tests/cli/cli_checks.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::broken_graphs_test {
+
 using Catch::Contains;
 using nlohmann::json;
 using test::refusal;
@@ -413,3 +414,5 @@ TEST_CASE("graphs: the verb prints the shader and what each node makes") {
     CHECK(eval.status == 0);
     CHECK_THAT(eval.out, Contains("lift") && Contains("-> acceleration") && Contains("0x1."));
 }
+
+} // namespace lockstep::test::broken_graphs_test

@@ -10,6 +10,8 @@
 
 #include "reference/model/lifecycle/bounding_polygon.hpp"
 
+namespace lockstep::test::bounding_polygon_test {
+
 using namespace lockstep::lifecycle;
 
 namespace {
@@ -243,3 +245,5 @@ TEST_CASE("bounding polygon: Graham's hull is Andrew's") {
             CHECK(std::is_permutation(hull.begin(), hull.end(), chain.begin(), chain.end()));
     }
 }
+
+} // namespace lockstep::test::bounding_polygon_test

@@ -6,8 +6,8 @@
 #include "tests/lifecycle/lifecycle_run.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::compaction_test {
+
 namespace lifecycle = lockstep::lifecycle;
 
 namespace {
@@ -109,3 +109,5 @@ TEST_CASE("compaction: the walk lists the survivors that the twin lists one by o
         }
     CHECK(seen > 300);
 }
+
+} // namespace lockstep::test::compaction_test

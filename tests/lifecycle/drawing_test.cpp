@@ -3,8 +3,8 @@
 #include "tests/lifecycle/lifecycle_run.hpp"
 #include "tests/shaders_with.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::drawing_test {
+
 namespace lifecycle = lockstep::lifecycle;
 namespace counter = lifecycle::counter;
 
@@ -129,3 +129,5 @@ TEST_CASE("drawing: both sides' pictures are the same but for a few steps") {
     CHECK(lit > 2000);
     CHECK(off < lit / 50);
 }
+
+} // namespace lockstep::test::drawing_test

@@ -6,9 +6,9 @@
 #include "reference/lifecycle/move_fast.hpp"
 #include "tests/lifecycle/lifecycle_run.hpp"
 
+namespace lockstep::test::fast_ways_test {
+
 /// Passes that make many items at once have the bits of their twins, item by item.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace lifecycle = lockstep::lifecycle;
 namespace counter = lifecycle::counter;
 
@@ -178,3 +178,5 @@ TEST_CASE("fast ways: a ribbon's points are sorted and added up with the twin's 
     expect_bits_of_twin(s, sorts ? std::vector<std::uint8_t>{length_buffer, key_buffer} : std::vector{length_buffer},
                         sorts ? 100 : 4);
 }
+
+} // namespace lockstep::test::fast_ways_test

@@ -13,8 +13,8 @@
 #include "reference/model/lifecycle/drawing.hpp"
 #include "tests/lifecycle/lifecycle_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::graphs_test {
+
 using Catch::Contains;
 namespace lifecycle = lockstep::lifecycle;
 namespace counter = lifecycle::counter;
@@ -307,3 +307,5 @@ TEST_CASE("emitters' graphs: what is wrong is told with the graph's file and pla
         {"id": "s", "type": "dot", "inputs": {"a": "a", "b": "v"}}], "outputs": {"color": "s"}})");
     CHECK_THROWS_WITH(host_of(s), Contains("more than 16 attributes with ribbons"));
 }
+
+} // namespace lockstep::test::graphs_test

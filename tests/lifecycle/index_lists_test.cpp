@@ -6,8 +6,8 @@
 #include "reference/lifecycle/sort_twin.hpp"
 #include "tests/lifecycle/lifecycle_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::index_lists_test {
+
 namespace lifecycle = lockstep::lifecycle;
 
 namespace {
@@ -152,3 +152,5 @@ TEST_CASE("index lists: both managements hold the same particles, but that lists
     CHECK(moved.size() > 20);
     CHECK(particles(lifecycle::Management::index_lists) == moved);
 }
+
+} // namespace lockstep::test::index_lists_test

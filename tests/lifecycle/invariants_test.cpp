@@ -6,9 +6,9 @@
 #include "reference/model/lifecycle/half.hpp"
 #include "tests/lifecycle/lifecycle_run.hpp"
 
+namespace lockstep::test::invariants_test {
+
 /// What must hold whatever the twins say, of the reference alone, and a simulator without buffers beside it.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace lifecycle = lockstep::lifecycle;
 namespace counter = lifecycle::counter;
 
@@ -160,3 +160,5 @@ TEST_CASE("invariants: what does not fit is dropped and counted, or takes the pl
     CHECK(living(turning).front().first > 0.3F);
     CHECK(count_of(turning, counter::alive) <= 100 + 12);
 }
+
+} // namespace lockstep::test::invariants_test

@@ -1,8 +1,8 @@
 #include "tests/lifecycle/lifecycle_run.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::kernels_test {
+
 namespace lifecycle = lockstep::lifecycle;
 
 namespace {
@@ -111,3 +111,5 @@ TEST_CASE("lifecycle: what diverges and leaves a state that its twins cannot go 
     CHECK(report.ended_by.find("the twin of ") != std::string::npos);
     CHECK(report_text(report, {}).find("DIVERGENT (partial: stopped after ") != std::string::npos);
 }
+
+} // namespace lockstep::test::kernels_test

@@ -3,8 +3,8 @@
 #include "tests/lifecycle/lifecycle_run.hpp"
 #include "tests/text_mutants.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::mutants_test {
+
 namespace lifecycle = lockstep::lifecycle;
 
 namespace {
@@ -111,3 +111,5 @@ TEST_CASE("lifecycle mutants: the whole catalogue", "[.][mutants]") {
         return skip(gl().missing());
     check_catalogue("lifecycle", run_of);
 }
+
+} // namespace lockstep::test::mutants_test

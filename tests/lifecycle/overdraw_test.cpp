@@ -14,8 +14,8 @@
 #include "tests/lifecycle/lifecycle_run.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::overdraw_test {
+
 using namespace lockstep::lifecycle;
 
 namespace {
@@ -227,3 +227,5 @@ TEST_CASE("overdraw: the polygon of the texels' centres cuts fragments that are 
     const double whole = drawn(disc, quad).lit;
     CHECK(drawn(disc, polygon_of(disc, 8, HullPoints::centres)).lit < whole * 0.99);
 }
+
+} // namespace lockstep::test::overdraw_test

@@ -10,7 +10,8 @@
 #include "reference/model/lifecycle/schema.hpp"
 #include "reference/readings/values.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::packing_test {
+
 using namespace lockstep::lifecycle;
 
 namespace {
@@ -143,7 +144,7 @@ TEST_CASE(
     "packing: every layout of the ladder is as many words as it is called, with floats where its schema has them") {
     const std::size_t bytes[] = {112, 80, 72, 64, 48, 44, 40};
     for (std::size_t k = 0; k < 7; ++k) {
-        Switches s;
+        lifecycle::Switches s;
         s.layout = static_cast<Layout>(k);
         const LayoutPlan& plan = plan_of(s.layout);
         const Resource& particles = schema(s).resources[particle_buffer];
@@ -155,3 +156,5 @@ TEST_CASE(
                 CHECK(plan.is_float(word++) == (field.scalar == Scalar::float32));
     }
 }
+
+} // namespace lockstep::test::packing_test

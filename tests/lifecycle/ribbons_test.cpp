@@ -5,8 +5,8 @@
 
 #include "tests/lifecycle/lifecycle_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::ribbons_test {
+
 namespace lifecycle = lockstep::lifecycle;
 namespace counter = lifecycle::counter;
 
@@ -165,3 +165,5 @@ TEST_CASE("ribbons: the specification's five points, stretched and by distance")
     CHECK(u_of(Emitter::Uv::stretched, StretchedDivisor::last_index, 1.0F) == Floats{0, 0.25F, 0.5F, 0.75F, 1});
     CHECK(u_of(Emitter::Uv::stretched, StretchedDivisor::count, 1.0F) == Floats{0, 0.4F, 0.6F, 0.8F, 1});
 }
+
+} // namespace lockstep::test::ribbons_test

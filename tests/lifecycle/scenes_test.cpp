@@ -10,8 +10,8 @@
 #include "reference/model/state_hash.hpp"
 #include "tests/lifecycle/lifecycle_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::scenes_test {
+
 namespace lifecycle = lockstep::lifecycle;
 
 namespace {
@@ -182,3 +182,5 @@ TEST_CASE("lifecycle scenes: what is wrong with a file is said in one line, with
     CHECK_THROWS_WITH(lifecycle::load_scene(folder + "fire.json", {.set = {"size=40"}}),
                       Catch::Contains("there is no switch 'size' of lifecycle"));
 }
+
+} // namespace lockstep::test::scenes_test

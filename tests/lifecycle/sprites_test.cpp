@@ -13,9 +13,9 @@
 #include "tests/lifecycle/lifecycle_run.hpp"
 #include "tests/temporary_folder.hpp"
 
+namespace lockstep::test::sprites_test {
+
 /// Sprites with a texture, as quads and as the polygon around what is to be seen, in the three ways of blending.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace lifecycle = lockstep::lifecycle;
 using lifecycle::Emitter;
 using lifecycle::Sprite;
@@ -230,3 +230,5 @@ TEST_CASE("sprites: what is wrong with one is said in one line, with its place")
     }
     CHECK_THAT(error_of("", R"("blend": "alpha")"), Catch::Contains("/emitters/0/blend"));
 }
+
+} // namespace lockstep::test::sprites_test

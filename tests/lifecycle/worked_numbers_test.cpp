@@ -13,8 +13,9 @@
 #include "reference/system/noise.hpp"
 #include "reference/system/turns.hpp"
 
+namespace lockstep::test::worked_numbers_test {
+
 /// The specification's own numbers, to the last digit.
-using namespace lockstep;
 using namespace lockstep::lifecycle;
 
 namespace {
@@ -22,7 +23,7 @@ namespace {
 using Reading = Values<Strict>;
 using Words = std::vector<std::uint32_t>;
 
-Host host_with(Switches switches) {
+Host host_with(lifecycle::Switches switches) {
     Settings settings;
     settings.switches = switches;
     return Host(settings);
@@ -65,7 +66,7 @@ Words bits3(const Vec3<float>& v) { return {bits(v.x), bits(v.y), bits(v.z)}; }
 
 TEST_CASE("worked numbers: a particle packed to 40 bytes, in both roundings, and a step on") {
     Reading r{Strict{}};
-    Switches s;
+    lifecycle::Switches s;
     s.time_code = TimeCode::half_seconds;
     s.half_rounding = HalfRounding::toward_zero;
     s.drag = Drag::explicit_force;
@@ -152,3 +153,5 @@ TEST_CASE("worked numbers: sine and cosine of turns lie within 1.7 * 2^-24") {
     }
     CHECK(worst <= 1.7 * 0x1p-24);
 }
+
+} // namespace lockstep::test::worked_numbers_test

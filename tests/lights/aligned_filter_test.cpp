@@ -12,9 +12,10 @@
 
 #include "reference/aligned_filter.hpp"
 
+namespace lockstep::test::aligned_filter_test {
+
 /// Filtering in fixed point, held to what a texture unit was measured to give (data/results/h200/filter.txt: format,
 /// places behind a cell's first texel on each axis, in texels, the cell's texels, the result).
-using namespace lockstep;
 
 namespace {
 
@@ -122,3 +123,5 @@ TEST_CASE("aligned filter: weights of a cell make up a whole, and a texel's midd
     const FilterCell alike{0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.3F};
     CHECK(aligned_sum(alike, filter_weights({77, 130, 201}), float_filter_bits).first == 0.3F);
 }
+
+} // namespace lockstep::test::aligned_filter_test

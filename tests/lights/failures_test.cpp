@@ -8,9 +8,9 @@
 #include "reference/triangle_interpolation.hpp"
 #include "tests/lights/lit_points.hpp"
 
+namespace lockstep::test::failures_test {
+
 /// The ways in which the published technique goes wrong, each with what is measured of it.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace lights = lockstep::lights;
 
 namespace {
@@ -280,3 +280,5 @@ TEST_CASE("lights failures, run_to_run and lost_updates: order and races show, f
     CHECK(sum_of_counts(cas[0], voxels) == sum_of_counts(cas[1], voxels));
     CHECK(sum_of_counts(racing[0], voxels) <= sum_of_counts(cas[0], voxels));
 }
+
+} // namespace lockstep::test::failures_test

@@ -9,12 +9,12 @@
 
 #include "tests/lights/lit_points.hpp"
 
+namespace lockstep::test::figures_test {
+
 /// The figures that another program had found beforehand for a floor under random lights (16^3 voxels, ranges of 4 m):
 /// of these lights here they are to be figures like any others, between the least and the greatest of some draws. Where
 /// its lights and its 400 pixels were is not known. A floor at 1.3 m and lights from 2 m upwards, seen along 12 m for
 /// one light and over the whole floor for many, give all that it found.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace lights = lockstep::lights;
 
 namespace {
@@ -146,3 +146,5 @@ TEST_CASE("lights figures: one summed direction is off by 43 % under 1,024 light
     CHECK(remedy.has(0.112));
     CHECK(single.least > 3.0 * remedy.greatest);
 }
+
+} // namespace lockstep::test::figures_test

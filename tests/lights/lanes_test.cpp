@@ -5,8 +5,8 @@
 #include "tests/item_bits.hpp"
 #include "tests/lights/lights_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::lanes_test {
+
 namespace lights = lockstep::lights;
 
 TEST_CASE("lights lanes: every item of every pass is that of the twin by itself") {
@@ -30,3 +30,5 @@ TEST_CASE("lights lanes: every item of every pass is that of the twin by itself"
     const lights::HostPtr host = host_of(s);
     check_item_bits(lights::system(host), Profile{}, 1);
 }
+
+} // namespace lockstep::test::lanes_test

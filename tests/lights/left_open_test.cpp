@@ -12,9 +12,9 @@
 #include "reference/lights/contribution.hpp"
 #include "tests/lights/lights_run.hpp"
 
+namespace lockstep::test::left_open_test {
+
 /// What GL leaves open: by drivers that are followed in it, and by others.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace lights = lockstep::lights;
 
 namespace {
@@ -279,3 +279,5 @@ TEST_CASE("lights left open: the line of a report on two runs") {
     CHECK(notes[1] == "run to run, b: of two runs from one state differ, as GL allows of sums in no fixed order: frame "
                       "0 0 of 8 words");
 }
+
+} // namespace lockstep::test::left_open_test

@@ -8,8 +8,8 @@
 #include "tests/lights/lights_run.hpp"
 #include "tests/text_mutants.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::mutants_test {
+
 namespace lights = lockstep::lights;
 
 namespace {
@@ -218,3 +218,5 @@ TEST_CASE("lights mutants: what the host hands over wrongly is found, and most h
     }
     CHECK(10 * with_cause >= 7 * all.size());
 }
+
+} // namespace lockstep::test::mutants_test

@@ -5,9 +5,9 @@
 #include "reference/lights/volume_twin.hpp"
 #include "tests/lights/lit_points.hpp"
 
+namespace lockstep::test::oracles_test {
+
 /// What must hold whatever the twin says: brute force in double, conservation, symmetries.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace lights = lockstep::lights;
 
 namespace {
@@ -302,3 +302,5 @@ TEST_CASE("lights oracles: the way to all items at once has the twin's bits") {
         state.take(pass->resource(), quick);
     }
 }
+
+} // namespace lockstep::test::oracles_test

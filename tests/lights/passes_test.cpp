@@ -7,8 +7,8 @@
 #include "crosscheck/scene/scene_fields.hpp"
 #include "tests/lights/lights_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::passes_test {
+
 namespace lights = lockstep::lights;
 
 namespace {
@@ -66,3 +66,5 @@ TEST_CASE("lights passes: sums whose order or rounding GL leaves open are legal,
     INFO(fmt::format("{}", fmt::join(values, " ")) << "\n" << report_text(report, {}));
     CHECK(passes(report));
 }
+
+} // namespace lockstep::test::passes_test

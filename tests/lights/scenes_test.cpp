@@ -11,8 +11,8 @@
 #include "reference/model/state_hash.hpp"
 #include "tests/lights/lights_run.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::scenes_test {
+
 namespace lights = lockstep::lights;
 
 namespace {
@@ -152,3 +152,5 @@ TEST_CASE("lights scenes: the kept hashes, made anew", "[.][golden]") {
         file["hashes"][name] = reference_hash(scene(name, "exact"));
     std::ofstream("data/golden/lights/exact.json") << file.dump(2) << "\n";
 }
+
+} // namespace lockstep::test::scenes_test

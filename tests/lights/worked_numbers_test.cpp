@@ -9,9 +9,9 @@
 #include "reference/readings/any_order.hpp"
 #include "tests/lights/lit_points.hpp"
 
+namespace lockstep::test::worked_numbers_test {
+
 /// Numbers that were worked out beforehand, in floats, by another program: nine digits are the float.
-using namespace lockstep;
-using namespace lockstep::test;
 namespace lights = lockstep::lights;
 
 namespace {
@@ -138,3 +138,5 @@ TEST_CASE("lights worked numbers, E4: a step between two texels") {
         CHECK(at(Way::nearest, samples, 2.6F) == Approx(0.2).epsilon(1e-6));
     CHECK(at(Way::trilinear, S::one, 2.6F) == Approx(0.28).epsilon(1e-6));
 }
+
+} // namespace lockstep::test::worked_numbers_test

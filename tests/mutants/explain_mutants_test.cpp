@@ -14,7 +14,7 @@
 #include "tests/mutants/trial.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::explain_mutants_test {
 
 namespace {
 
@@ -136,3 +136,5 @@ TEST_CASE("explain mutants: the first row that differs is the mutated operation"
     CAPTURE(elsewhere);
     CHECK(elsewhere.empty());
 }
+
+} // namespace lockstep::test::explain_mutants_test

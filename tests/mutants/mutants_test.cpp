@@ -10,8 +10,7 @@
 #include "tests/mutants/outcome_json.hpp"
 #include "tests/mutants/score.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::mutants_test {
 
 namespace {
 
@@ -238,3 +237,5 @@ TEST_CASE("mutants: the rules of others accept what is equal and reject what is 
     gpu.cdt.at(1, 1).a = 1.0F;
     CHECK(rejecting(gpu) == Names{"hash"});
 }
+
+} // namespace lockstep::test::mutants_test

@@ -13,7 +13,7 @@
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/mutants/planted_fault.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::planted_fault_test {
 
 namespace {
 
@@ -100,3 +100,5 @@ TEST_CASE("planted faults: one in 50,000 particles is located in at most 5 secon
     }
     CHECK(least < 5.0);
 }
+
+} // namespace lockstep::test::planted_fault_test

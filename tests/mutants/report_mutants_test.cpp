@@ -20,7 +20,7 @@
 #include "tests/mutants/trial.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::report_mutants_test {
 
 namespace {
 
@@ -124,3 +124,5 @@ TEST_CASE("report mutants: page and capsule alone name the planted bug, 10 of 10
     CAPTURE(named, other);
     CHECK(named.size() == std::size(expectations));
 }
+
+} // namespace lockstep::test::report_mutants_test

@@ -9,7 +9,8 @@
 #include "tests/package/reference_engine.hpp"
 #include "tests/package/shell.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::catch_matcher_test {
+
 using Catch::Contains;
 using test::ReferenceEngine;
 
@@ -80,3 +81,5 @@ TEST_CASE(
     CHECK(again.status == 1);
     CHECK_THAT(again.out, Contains("verdict   DIVERGENT from frame 3 on"));
 }
+
+} // namespace lockstep::test::catch_matcher_test

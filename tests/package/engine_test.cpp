@@ -4,7 +4,8 @@
 
 #include "tests/package/reference_engine.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::engine_test {
+
 using Catch::Contains;
 using test::ReferenceEngine;
 
@@ -127,3 +128,5 @@ TEST_CASE("engine: without a CDT it is never asked for one, and its particles ar
     NoCdt wrong(scene, [](int frame, Particles& particles) { particles.speed[7] += frame == 2 ? 1.0F : 0.0F; });
     CHECK_FALSE(match_reference(wrong, scene, {.frames = 4}).passed());
 }
+
+} // namespace lockstep::test::engine_test

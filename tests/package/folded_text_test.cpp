@@ -2,6 +2,8 @@
 
 #include "crosscheck/package/folded_text.hpp"
 
+namespace lockstep::test::folded_text_test {
+
 using lockstep::failure_first;
 using lockstep::folded_text;
 
@@ -71,3 +73,5 @@ TEST_CASE("failure first: verdict, cause, first difference and the repeat line, 
                                                          "\n");
     CHECK(failure_first("") == "");
 }
+
+} // namespace lockstep::test::folded_text_test

@@ -9,7 +9,8 @@
 
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::function_test {
+
 using Catch::Contains;
 using glm::vec2;
 using glm::vec3;
@@ -251,3 +252,5 @@ static_assert(!has_render<FunctionMatchOptions> && !has_hits<FunctionMatchOption
               !has_frames<FunctionMatchOptions>);
 static_assert(std::is_invocable_v<decltype(match_system), SystemSide&, const System&, const SystemMatchOptions&> &&
               !std::is_invocable_v<decltype(match_system), SystemSide&, const System&, const MatchOptions&>);
+
+} // namespace lockstep::test::function_test

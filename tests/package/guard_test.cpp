@@ -7,7 +7,8 @@
 #include "reference/system/item_words.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::guard_test {
+
 using lockstep::test::TemporaryFolder;
 
 /// 100 numbers that are halved, in groups of 64: 28 invocations of the last group have none.
@@ -129,3 +130,5 @@ TEST_CASE("guard: blocks that bindings.json binds by member are watched, in an a
                 CHECK(check(system, side, options).verdict == Verdict::agree);
         }
 }
+
+} // namespace lockstep::test::guard_test

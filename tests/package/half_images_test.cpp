@@ -12,7 +12,8 @@
 #include "reference/system/stored_pass.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::half_images_test {
+
 using lockstep::test::TemporaryFolder;
 
 /// A system of two images of halves, whose twins say nothing of halves: `fog` is made by a compute pass, `mist` drawn
@@ -182,3 +183,5 @@ TEST_CASE("half images: a driver of which nothing was measured may store either 
     CHECK(legal(rounds, half_nearest(exact)));
     CHECK_FALSE((legal(rounds, below) && legal(rounds, above)));
 }
+
+} // namespace lockstep::test::half_images_test

@@ -9,7 +9,8 @@
 #include "tests/system_run.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::host_causes_test {
+
 using lockstep::test::run_system;
 using lockstep::test::TemporaryFolder;
 
@@ -107,3 +108,5 @@ TEST_CASE("host causes: fields that are swapped are a cause where enough items s
     CHECK_THAT(cause(7, "    after[i] = frame == 5 ? Cell(cell.age, cell.size) : cell;\n"),
                !Catch::Contains("swapped"));
 }
+
+} // namespace lockstep::test::host_causes_test

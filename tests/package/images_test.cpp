@@ -20,7 +20,8 @@
 #include "reference/system/item_words.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::images_test {
+
 using lockstep::test::TemporaryFolder;
 
 /// Lamps in a buffer: their light is added up in an image and hazes one of three dimensions; the nearest marks its
@@ -398,3 +399,5 @@ TEST_CASE("images: formats and passes that do not fit are named") {
     CHECK_THROWS_WITH(GlSystem(wrong, {}, "tests/package/glow"),
                       "'light': its texels are floats; an image of format rgba32f has vec4s");
 }
+
+} // namespace lockstep::test::images_test

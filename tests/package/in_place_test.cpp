@@ -8,7 +8,8 @@
 
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::in_place_test {
+
 using lockstep::test::TemporaryFolder;
 
 /// Sparks that burn down: two buffers that a kernel changes in place, a count that it keeps beside them, a buffer of
@@ -177,3 +178,5 @@ TEST_CASE("in place: a schema names storage blocks for all fields of a buffer, o
     CHECK_THROWS_WITH(checked({"s", {of("a", {in_b}), of("c", {also_in_b})}}),
                       Catch::Contains("storage block 'b' stands there twice"));
 }
+
+} // namespace lockstep::test::in_place_test

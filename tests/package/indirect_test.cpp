@@ -9,7 +9,8 @@
 #include "reference/system/item_words.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::indirect_test {
+
 using lockstep::test::TemporaryFolder;
 
 /// Cells of which a number grows that a kernel of one invocation counts for an indirect dispatch.
@@ -110,3 +111,5 @@ TEST_CASE("indirect: a wrong group count is divergent in the buffer and in what 
     CHECK(report.verdict == Verdict::divergent);
     CHECK((report.total.differing(0) > 0) == (by == "living / 64u"));
 }
+
+} // namespace lockstep::test::indirect_test

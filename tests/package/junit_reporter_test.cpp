@@ -7,7 +7,8 @@
 #include "tests/package/reference_engine.hpp"
 #include "tests/package/shell.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::junit_reporter_test {
+
 using Catch::Contains;
 
 namespace {
@@ -47,3 +48,5 @@ TEST_CASE("junit reporter: pass, fail, error and skipped are told apart, with re
           R"(<skipped message="no GL, as asked"/>)"})
         CHECK_THAT(run.out, Contains(text));
 }
+
+} // namespace lockstep::test::junit_reporter_test

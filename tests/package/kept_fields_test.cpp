@@ -10,7 +10,8 @@
 #include "tests/system_run.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::kept_fields_test {
+
 using lockstep::test::run_system;
 using lockstep::test::TemporaryFolder;
 
@@ -145,3 +146,5 @@ TEST_CASE("kept fields: two states share a column until one of them is written")
     CHECK(other.view().vec3(hue, 6) == one.view().vec3(hue, 6));
     CHECK(std::as_const(one)[0].columns[hue.field] == view.columns[hue.field]);
 }
+
+} // namespace lockstep::test::kept_fields_test

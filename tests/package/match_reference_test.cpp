@@ -12,7 +12,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/skip.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::match_reference_test {
+
 using Catch::Contains;
 using Catch::EndsWith;
 using Catch::StartsWith;
@@ -232,3 +233,5 @@ TEST_CASE("match_reference: with render the last frame is compared, too, and an 
                    Contains(folder == &right ? "render    AGREE: every one of" : "render    DIVERGENT: "));
     }
 }
+
+} // namespace lockstep::test::match_reference_test

@@ -10,7 +10,8 @@
 #include "tests/consumer/grains/grains.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::own_text_test {
+
 using lockstep::test::TemporaryFolder;
 
 /// Systems of one's own whose reference is a shader's text, and no twin.
@@ -220,3 +221,5 @@ TEST_CASE("own text: a program of one's own takes texts in the place of its twin
     CHECK(run_grains({"--shaders", slip, "--reference", slip}) == 0);
     CHECK(run_grains({"--reference", (right.path() / "nowhere").string()}) == 2);
 }
+
+} // namespace lockstep::test::own_text_test

@@ -7,7 +7,8 @@
 
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shader_names_test {
+
 using Catch::Contains;
 using lockstep::test::TemporaryFolder;
 
@@ -166,3 +167,5 @@ TEST_CASE("shader names: what does not fit names the folder and the place") {
     CHECK_THAT(error_of(whole), Contains("/storage_blocks/Old: CellBefore is no storage block here; right is one of "
                                          "CellsAfter, CellsBefore; did you mean CellsBefore?"));
 }
+
+} // namespace lockstep::test::shader_names_test

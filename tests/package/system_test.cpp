@@ -11,7 +11,8 @@
 #include "tests/consumer/grains/grains.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::system_test {
+
 using lockstep::test::TemporaryFolder;
 
 namespace {
@@ -242,3 +243,5 @@ TEST_CASE("a program of one's own ends with a message and status 2 where its sys
     CHECK(status([]() -> System { throw Error("grains: two fields are named 'speed'"); }) == 2);
     CHECK(status([]() -> System { throw std::bad_alloc(); }) == 2);
 }
+
+} // namespace lockstep::test::system_test

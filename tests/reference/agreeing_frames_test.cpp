@@ -7,7 +7,7 @@
 
 #include "crosscheck/judge/agreeing_frames.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::agreeing_frames_test {
 
 namespace {
 
@@ -52,3 +52,5 @@ TEST_CASE("agreeing frames: of passes with mistakes of one name each has to have
     silent.refutes = false;
     CHECK(left({silent}).size() == 2);
 }
+
+} // namespace lockstep::test::agreeing_frames_test

@@ -8,7 +8,7 @@
 #include "reference/arithmetic.hpp"
 #include "reference/with_arithmetic.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::arithmetic_test {
 
 namespace {
 
@@ -94,3 +94,5 @@ TEST_CASE("arithmetic: a driver's tables belong to the value, not to the program
               return with_arithmetic(b, ArithmeticSwitch::plain, reciprocal) + reciprocal(fp);
           }) == 1.75F);
 }
+
+} // namespace lockstep::test::arithmetic_test

@@ -3,7 +3,7 @@
 #include "crosscheck/collision/study/camera_experiments.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::camera_experiments_test {
 
 namespace {
 
@@ -66,3 +66,5 @@ TEST_CASE("camera experiments: a line a camera, and dashes for what is not there
     row.hits = 3.4;
     CHECK(camera_text(row) == "| moving | 0.50 | stands | 3 | 40.0 | 10.0 | 25.0 |\n");
 }
+
+} // namespace lockstep::test::camera_experiments_test

@@ -4,7 +4,7 @@
 
 #include "reference/model/camera.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::camera_test {
 
 namespace {
 
@@ -76,3 +76,5 @@ TEST_CASE("camera: two keys of one frame are a jump") {
     CHECK(camera_at({}, keys, 4).eye.x == 0.8F);
     CHECK(camera_at({}, keys, 5).eye.x == 3.0F);
 }
+
+} // namespace lockstep::test::camera_test

@@ -12,7 +12,7 @@
 #include "crosscheck/collision/study/study_pictures.hpp"
 #include "reference/model/error.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::catalogue_test {
 
 namespace {
 
@@ -82,3 +82,5 @@ TEST_CASE("catalogue: a picture shows the viewer's frame and the searches beside
     CHECK(count(miss_color(Miss::outside_image)) == 0);
     CHECK_THROWS_WITH(catalogue_picture("horn", scenes), Catch::StartsWith("catalogue: nothing is named horn"));
 }
+
+} // namespace lockstep::test::catalogue_test

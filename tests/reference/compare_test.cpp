@@ -9,7 +9,7 @@
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/ulp.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::compare_test {
 
 namespace {
 
@@ -134,3 +134,5 @@ TEST_CASE("compare: one texel component is found with its texel") {
     CHECK(c.worst[0].index == reference.index(12, 40));
     CHECK(c.worst[0].component == 2);
 }
+
+} // namespace lockstep::test::compare_test

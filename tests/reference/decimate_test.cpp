@@ -8,7 +8,8 @@
 #include "reference/model/random.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::decimate_test {
+
 using lockstep::test::TemporaryFolder;
 
 namespace {
@@ -61,3 +62,5 @@ TEST_CASE("decimate: a file that cannot be written is told") {
     CHECK_THROWS_WITH(write_obj(box_surface({1.0, 1.0, 1.0}), "/nowhere/box.obj"),
                       "/nowhere/box.obj: cannot be written: No such file or directory");
 }
+
+} // namespace lockstep::test::decimate_test

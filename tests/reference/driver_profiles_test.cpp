@@ -20,8 +20,7 @@
 #include "tests/collision/collision_scenes.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::driver_profiles_test {
 
 namespace {
 
@@ -310,3 +309,5 @@ TEST_CASE("driver profiles: corners are held to no order where the driver fuses 
     CHECK_FALSE(with_shaders(profile_from(result), result, TemporaryFolder().path()).open_corners);
     CHECK_FALSE(with_shaders(profile_from(result), result, {}).open_corners);
 }
+
+} // namespace lockstep::test::driver_profiles_test

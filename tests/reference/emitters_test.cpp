@@ -11,7 +11,7 @@
 #include "reference/model/collision/emitters.hpp"
 #include "reference/model/state_hash.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::emitters_test {
 
 namespace {
 
@@ -139,3 +139,5 @@ TEST_CASE("emitters: a shorter box keeps its side in front, and the density") {
     CHECK(emitters[2].box.min == glm::vec3(-1.0F, 2.0F, 0.25F));
     CHECK(emitters[2].box.max == glm::vec3(1.0F, 3.0F, 0.5F));
 }
+
+} // namespace lockstep::test::emitters_test

@@ -3,7 +3,7 @@
 #include "reference/collision/collision_pass.hpp"
 #include "reference/model/collision/scene.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::frame_params_test {
 
 namespace {
 
@@ -72,3 +72,5 @@ TEST_CASE("frame: a moving collision camera follows the path, a fixed one stays"
     CHECK(texel_of_unit_x(s, 4) == 312);
     CHECK(frame_params(s, 4).render_view[3].z == -7.0F);
 }
+
+} // namespace lockstep::test::frame_params_test

@@ -11,7 +11,7 @@
 #include "crosscheck/judge/rounding_only.hpp"
 #include "reference/system/item_twin.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::item_cause_test {
 
 namespace {
 
@@ -136,3 +136,5 @@ TEST_CASE("item cause: nothing finite is near what is infinite") {
     CHECK(near({infinite, 1.0F}, {infinite, 1.0000001F}, {0.0F, 0.0F}));
     CHECK(near({none, 1.0F}, {none, 1.0F}, {0.0F, 0.0F}));
 }
+
+} // namespace lockstep::test::item_cause_test

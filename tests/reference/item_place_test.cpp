@@ -4,7 +4,7 @@
 
 #include "reference/model/error.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::item_place_test {
 
 namespace {
 
@@ -50,3 +50,5 @@ TEST_CASE("item place: what is no item is refused with those there are") {
     CHECK(refusal("0,0,2", 3, {4, 3, 2}) == "there is no texel '0,0,2'; glow has 0,0,0 to 3,2,1");
     CHECK(refusal("0", 1, {0, 1, 1}) == "there is no texel '0'; glow has none");
 }
+
+} // namespace lockstep::test::item_place_test

@@ -6,7 +6,7 @@
 #include "crosscheck/files/json_reader.hpp"
 #include "reference/model/error.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::json_reader_test {
 
 namespace {
 
@@ -92,3 +92,5 @@ TEST_CASE("json reader: an error does not quote a million digits") {
         CHECK(std::string(error.what()).size() < 250);
     }
 }
+
+} // namespace lockstep::test::json_reader_test

@@ -9,7 +9,7 @@
 
 #include "reference/arithmetic.hpp"
 
-namespace lockstep {
+namespace lockstep::test::legal_interpolation_test {
 namespace {
 
 constexpr int width = 61, height = 47;
@@ -110,4 +110,4 @@ TEST_CASE("legal interpolation: of a large triangle a grid step is a small share
     CHECK(most.depth < 1.2 * (step / 59 + step / 45 + 1e-5));
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::legal_interpolation_test

@@ -11,7 +11,7 @@
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::legal_widths_test {
 
 namespace {
 
@@ -95,3 +95,5 @@ TEST_CASE("legal widths: a report has them of what differs and is legal, with un
           std::string::npos);
     CHECK(verdict_json(summary, schema, extents)["drop_leeway"]["widest"] == "anything");
 }
+
+} // namespace lockstep::test::legal_widths_test

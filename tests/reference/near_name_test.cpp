@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace lockstep;
+namespace lockstep::test::near_name_test {
 
 TEST_CASE("near name: letters added, dropped, changed and swapped with the next are one slip each") {
     CHECK(edits("angle", "angle") == 0);
@@ -19,3 +19,5 @@ TEST_CASE("near name: the nearest is meant, and none where none is near") {
     CHECK(nearest_name("vaccum", {"vacuum", "emit", "wind"}) == "vacuum");
     CHECK(did_you_mean("wind", {"vacuum", "emit"}).empty());
 }
+
+} // namespace lockstep::test::near_name_test

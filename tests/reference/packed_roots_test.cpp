@@ -9,7 +9,7 @@
 #include "reference/subnormals.hpp"
 #include "tests/uneven_roots.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::packed_roots_test {
 
 namespace {
 
@@ -88,3 +88,5 @@ TEST_CASE("packed roots: no number, one that is too far off, half a table and a 
     CHECK_FALSE(packs([](RootTables& t) { t.inverse_sqrt.pop_back(); }));
     CHECK_FALSE(packs([](RootTables& t) { t.on_lookup = [](const std::vector<float>&, std::size_t) {}; }));
 }
+
+} // namespace lockstep::test::packed_roots_test

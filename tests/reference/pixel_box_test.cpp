@@ -6,7 +6,7 @@
 
 #include "reference/portable.hpp"
 
-namespace lockstep {
+namespace lockstep::test::pixel_box_test {
 namespace {
 
 bool same(PixelRect a, PixelRect b) { return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1; }
@@ -59,4 +59,4 @@ TEST_CASE("pixel box: none for a triangle that is not finite", "[pixel_box]") {
         }
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::pixel_box_test

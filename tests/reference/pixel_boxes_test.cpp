@@ -7,8 +7,9 @@
 
 #include "reference/system/pixel_boxes.hpp"
 
+namespace lockstep::test::pixel_boxes_test {
+
 /// Which boxes a tile is drawn with, held to a search of all boxes.
-using namespace lockstep;
 
 TEST_CASE("every tile has the boxes that touch it, by number, however many parts sort them", "[boxes]") {
     constexpr int width = 133, height = 90, tile_width = BoxesByTile::tile_width,
@@ -37,3 +38,5 @@ TEST_CASE("every tile has the boxes that touch it, by number, however many parts
             REQUIRE(std::vector<std::uint32_t>(found.begin(), found.end()) == touching);
         }
 }
+
+} // namespace lockstep::test::pixel_boxes_test

@@ -7,7 +7,7 @@
 #include "reference/model/random.hpp"
 #include "reference/pixel_set.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::pixel_set_test {
 
 TEST_CASE("pixel set: a rectangle's pixels are those that a look at each of them finds, row by row") {
     constexpr int width = 13, height = 7;
@@ -35,3 +35,5 @@ TEST_CASE("pixel set: a rectangle's pixels are those that a look at each of them
         CHECK(set.place(0, height) == -1);
     }
 }
+
+} // namespace lockstep::test::pixel_set_test

@@ -6,7 +6,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::plain_text_test {
 
 TEST_CASE("plain text: what a terminal obeys instead of showing it is written out") {
     CHECK(plain_line("a\nverdict   AGREE\r\tb") == "a\\nverdict   AGREE\\r\\tb");
@@ -51,3 +51,5 @@ TEST_CASE("plain text: a word with such characters is one that a shell reads as 
     CHECK(shell_word("a\nb'\x1b\\") == R"($'a\x0ab\'\x1b\\')");
     CHECK(shell_word("a b") == "'a b'");
 }
+
+} // namespace lockstep::test::plain_text_test

@@ -12,6 +12,8 @@
 #include "reference/arithmetic.hpp"
 #include "reference/subnormals.hpp"
 
+namespace lockstep::test::portable_test {
+
 using lockstep::Portable;
 
 namespace {
@@ -261,3 +263,5 @@ TEST_CASE("portable: the same bits whether the processor flushes subnormals or k
     const bool same = all_results(values, false) == all_results(values, true); // not in CHECK, which prints both
     CHECK(same);
 }
+
+} // namespace lockstep::test::portable_test

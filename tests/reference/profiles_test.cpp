@@ -12,7 +12,7 @@
 #include "reference/known_operations.hpp"
 #include "tests/gpu/probe_rows.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::profiles_test {
 
 namespace {
 
@@ -394,3 +394,5 @@ TEST_CASE("profiles: a probe without one of the rows is an error") {
     result.rows.pop_back();
     CHECK_THROWS_WITH(profile_from(result), "probe: there is no row 'equal depth, LESS'");
 }
+
+} // namespace lockstep::test::profiles_test

@@ -2,7 +2,7 @@
 
 #include "reference/model/random.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::random_test {
 
 TEST_CASE("random: splitmix64 gives the published numbers of seed 1234567") {
     std::uint64_t state = 1234567;
@@ -48,3 +48,5 @@ TEST_CASE("random: symmetric numbers lie in [-1, 1) on both sides of 0") {
     CHECK(below > 400);
     CHECK(below < 600);
 }
+
+} // namespace lockstep::test::random_test

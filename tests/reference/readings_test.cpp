@@ -10,7 +10,7 @@
 #include "reference/portable.hpp"
 #include "reference/system/item_twin.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::readings_test {
 
 /// Of an int that is the twin's own, and of the reading's.
 template <class R> void keeps_signs() {
@@ -188,3 +188,5 @@ TEST_CASE("readings: what is in a loop can leave it") {
     CHECK_FALSE(has(refuses, Change::loops_left_if_so));
     CHECK_FALSE(has(test, Change::loop_left_if_so));
 }
+
+} // namespace lockstep::test::readings_test

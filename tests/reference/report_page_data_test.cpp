@@ -20,7 +20,7 @@
 #include "reference/model/collision/layered_cdt.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::report_page_data_test {
 
 namespace {
 
@@ -232,3 +232,5 @@ TEST_CASE("report page data: a scene too large for the live view leaves it out, 
                                          RunDescription{"small", "", "", "", "resync", "", ""}, {}, {}, {});
     CHECK(page.size() < 100'000);
 }
+
+} // namespace lockstep::test::report_page_data_test

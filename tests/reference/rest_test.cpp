@@ -13,7 +13,7 @@
 #include "reference/collision/simulation.hpp"
 #include "reference/model/error.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::rest_test {
 
 namespace {
 
@@ -122,3 +122,5 @@ TEST_CASE("rest: a scene without obstacles has nothing to lie on") {
     scene.obstacles = {};
     CHECK_THROWS_WITH(rest_run(scene, {}, {}), Catch::Contains("this scene has none"));
 }
+
+} // namespace lockstep::test::rest_test

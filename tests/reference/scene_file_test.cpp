@@ -10,7 +10,8 @@
 #include "reference/model/state_hash.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::scene_file_test {
+
 using lockstep::test::TemporaryFolder;
 
 namespace {
@@ -322,3 +323,5 @@ TEST_CASE("scene_file: a long value is cut short and stays on one line") {
     CHECK(what.size() < 150);
     CHECK(error_of("\"seed\": \"a\\nb\"") == "x.json: /seed: \"a\\nb\" is not an integer from 0 to 9007199254740991");
 }
+
+} // namespace lockstep::test::scene_file_test

@@ -10,7 +10,7 @@
 #include "reference/model/schema.hpp"
 #include "reference/model/state_hash.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::schema_test {
 
 namespace {
 
@@ -160,7 +160,7 @@ TEST_CASE("schema: items that one side alone has differ") {
 TEST_CASE("schema: a view of particles hashes word by word as documented") {
     Particles particles;
     particles.resize(300);
-    Random random(7, 1);
+    lockstep::Random random(7, 1);
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const auto next = [&] { return static_cast<float>(random.symmetric()); };
         particles.set(i, {{next(), next(), next()}, {next(), next(), next()}, next(), next()});
@@ -189,3 +189,5 @@ TEST_CASE("schema: values keep their kind, and floats are the same when both are
     CHECK(distance(Value(Scalar::int32, 0x80000000U), Value(Scalar::int32, 0x7fffffffU)) == 0xffffffffLL);
     CHECK(distance(Value(0.0F), Value(-0.0F)) == 0);
 }
+
+} // namespace lockstep::test::schema_test

@@ -6,7 +6,7 @@
 
 #include "reference/model/error.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::settings_place_test {
 
 namespace {
 
@@ -45,3 +45,5 @@ TEST_CASE("settings place: what is right is no place, and where a key stands twi
     CHECK(said("dust: mass is 0; right is drag above 0") == "s.json: dust: mass is 0; right is drag above 0");
     CHECK(said("dust: range is -1") == "s.json: dust: range is -1");
 }
+
+} // namespace lockstep::test::settings_place_test

@@ -4,7 +4,7 @@
 
 #include "reference/model/system_state.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shared_fields_test {
 
 namespace {
 
@@ -77,3 +77,5 @@ TEST_CASE("shared fields: a state without any is its copy's own") {
     CHECK(first(larger, heat) == 5.0F);
     CHECK(larger.extent(0).count() == count);
 }
+
+} // namespace lockstep::test::shared_fields_test

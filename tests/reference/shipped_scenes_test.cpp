@@ -10,7 +10,7 @@
 #include "reference/model/error.hpp"
 #include "tests/skip.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::shipped_scenes_test {
 
 namespace {
 
@@ -70,3 +70,5 @@ TEST_CASE("shipped_scenes: each fits its rgba8 box, and its obstacles lie beyond
                 REQUIRE((p[axis] >= scene->cdt_box.min[axis] && p[axis] <= scene->cdt_box.max[axis]));
     }
 }
+
+} // namespace lockstep::test::shipped_scenes_test

@@ -6,7 +6,7 @@
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::state_hash_test {
 
 namespace {
 
@@ -49,3 +49,5 @@ TEST_CASE("state_hash: every NaN counts as one") {
     b.speed[0] = -std::nanf("7");
     CHECK(state_hash(a) == state_hash(b));
 }
+
+} // namespace lockstep::test::state_hash_test

@@ -8,7 +8,7 @@
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/subnormals.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::subnormals_test {
 
 namespace {
 
@@ -89,3 +89,5 @@ TEST_CASE("subnormals: threads that start while obstacles are drawn keep them af
     for (const float product : products)
         CHECK(product > 0.0F);
 }
+
+} // namespace lockstep::test::subnormals_test

@@ -12,7 +12,8 @@
 #include "reference/model/error.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::surface_test {
+
 using lockstep::test::TemporaryFolder;
 
 namespace {
@@ -227,3 +228,5 @@ TEST_CASE("surface: a flat one cannot be scaled to a height, and none may reach 
                       Catch::StartsWith("reaches beyond what a float holds"));
     CHECK_NOTHROW(place(plane_surface(1.0, 1.0), {}, mesh));
 }
+
+} // namespace lockstep::test::surface_test

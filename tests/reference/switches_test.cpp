@@ -3,7 +3,7 @@
 #include "reference/model/collision/switches.hpp"
 #include "reference/model/error.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::switches_test {
 
 TEST_CASE("switches: every value of every switch is set and read back by name") {
     for (const SwitchInfo& info : switch_table()) {
@@ -51,3 +51,5 @@ TEST_CASE("switches: a wrong name or value is told with what is allowed") {
     CHECK_THROWS_WITH(preset("papper"),
                       "unknown preset 'papper'; the presets are listing, paper, corrected, exact; did you mean paper?");
 }
+
+} // namespace lockstep::test::switches_test

@@ -14,7 +14,7 @@
 #include "crosscheck/report/statistics.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::thesis_report_test {
 
 namespace {
 
@@ -174,3 +174,5 @@ TEST_CASE("thesis_report: the chart has both tables and both figures") {
     CHECK_THAT(script, Catch::Contains("Table 4-1") && Catch::Contains("Table 5-1") && Catch::Contains("Figure 5-3") &&
                            Catch::Contains("Figure 5-5") && Catch::Contains("\n50000 5 NaN 13.5 102\n"));
 }
+
+} // namespace lockstep::test::thesis_report_test

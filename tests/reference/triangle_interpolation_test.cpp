@@ -12,7 +12,7 @@
 #include "reference/portable.hpp"
 #include "reference/subnormals.hpp"
 
-namespace lockstep {
+namespace lockstep::test::triangle_interpolation_test {
 namespace {
 
 using Interpolation = TriangleInterpolation<Strict>;
@@ -225,4 +225,4 @@ TEST_CASE("triangle interpolation: the bound covers a division off by 2.5 ULP", 
     }
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::triangle_interpolation_test

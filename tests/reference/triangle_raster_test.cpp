@@ -11,7 +11,7 @@
 
 #include "reference/model/image.hpp"
 
-namespace lockstep {
+namespace lockstep::test::triangle_raster_test {
 namespace {
 
 using Pixels = std::set<std::pair<int, int>>;
@@ -224,4 +224,4 @@ TEST_CASE("triangle raster: side distance is measured to the segment", "[triangl
     CHECK(nearest_side(t, 4, 4, {}).distance == Approx(4 * 256 / std::sqrt(2.0)));
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::triangle_raster_test

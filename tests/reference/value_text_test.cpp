@@ -6,7 +6,7 @@
 #include "crosscheck/report/value_text.hpp"
 #include "reference/model/ulp.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::value_text_test {
 
 namespace {
 
@@ -30,3 +30,5 @@ TEST_CASE("value text: decimals of nine digits, or the bits, never both") {
     CHECK(value_text(0.1F, NumberFormat::decimal) == "0.100000001");
     CHECK(value_text(0.1F, NumberFormat::hexadecimal) == "0x1.99999ap-4");
 }
+
+} // namespace lockstep::test::value_text_test

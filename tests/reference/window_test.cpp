@@ -5,7 +5,7 @@
 
 #include "reference/window.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::window_test {
 
 namespace {
 
@@ -133,3 +133,5 @@ TEST_CASE("window: the clip volume is closed and holds no NaN") {
     CHECK_FALSE(in_clip_volume({0.0F, 0.0F, 0.0F, std::numeric_limits<float>::infinity()}));
     CHECK_FALSE(in_clip_volume({0.0F, 0.0F, 0.0F, std::numeric_limits<float>::quiet_NaN()}));
 }
+
+} // namespace lockstep::test::window_test

@@ -14,8 +14,7 @@
 #include "reference/collision/legal_outcomes.hpp"
 #include "tests/collision/collision_scenes.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::worlds_test {
 
 namespace {
 
@@ -310,3 +309,5 @@ TEST_CASE("worlds: a division by a constant is one float, or, where the compiler
         CHECK(found == right);
     }
 }
+
+} // namespace lockstep::test::worlds_test

@@ -7,8 +7,7 @@
 #include "reference/text/alignment.hpp"
 #include "tests/text/text_kernel.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::alignment_test {
 
 namespace {
 
@@ -152,3 +151,5 @@ TEST_CASE("trace: an invocation that shares what it computes is refused by its l
     CHECK_THROWS_WITH(Text("s = 1.0; barrier(); x[0] = s;", "shared float s;").run({0}),
                       Catch::Contains("kernel.comp:5") && Catch::Contains("is not run apart from others"));
 }
+
+} // namespace lockstep::test::alignment_test

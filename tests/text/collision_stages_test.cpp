@@ -12,8 +12,7 @@
 #include "tests/gpu/any_context.hpp"
 #include "tests/text/dispatch_watch.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::collision_stages_test {
 
 namespace {
 
@@ -79,3 +78,5 @@ TEST_CASE("text: each compute stage of collision makes its twin's bits, and the 
         }
     }
 }
+
+} // namespace lockstep::test::collision_stages_test

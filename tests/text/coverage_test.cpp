@@ -9,8 +9,7 @@
 #include "tests/text/text_kernel.hpp"
 #include "tests/text/text_stage.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::coverage_test {
 
 namespace {
 
@@ -175,3 +174,5 @@ TEST_CASE("coverage: a vertex stage, and a fragment stage that discards") {
     fragment.run(20);
     CHECK(gaps(fragment.program, of_fragment) == Gaps{"7 line", "5 was never false"});
 }
+
+} // namespace lockstep::test::coverage_test

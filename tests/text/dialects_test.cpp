@@ -6,8 +6,7 @@
 #include "reference/model/error.hpp"
 #include "tests/text/text_stage.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::dialects_test {
 
 namespace {
 
@@ -170,3 +169,5 @@ TEST_CASE("text: old functions that sample, beside a variable of the later funct
         CHECK(floats_of(stage.run(1).outputs.at("ls_FragColor")) == std::vector{5.0F, 6.0F, 7.0F, 8.0F});
     }
 }
+
+} // namespace lockstep::test::dialects_test

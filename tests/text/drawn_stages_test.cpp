@@ -20,8 +20,7 @@
 #include "tests/text/draw_watch.hpp"
 #include "tests/text/shipped_scene.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::drawn_stages_test {
 
 namespace {
 
@@ -157,3 +156,5 @@ TEST_CASE("text: the stage that calls a function makes the GPU's words") {
     expect_equal("function", watch.rows(), 1);
     CHECK(watch.rows().begin()->second.invocations >= 1000);
 }
+
+} // namespace lockstep::test::drawn_stages_test

@@ -10,8 +10,8 @@
 #include "reference/model/error.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::examine_test {
+
 using Catch::Contains;
 
 namespace {
@@ -266,3 +266,5 @@ TEST_CASE("examine: a shared variable that begins as 0 is set") {
     CHECK(found(group + "shared float s[8] = {};\n" + body, of_groups).empty());
     CHECK(found(group + "shared float s[8];\n" + body, of_groups).size() == 1);
 }
+
+} // namespace lockstep::test::examine_test

@@ -8,8 +8,7 @@
 
 #include "tests/text/text_kernel.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::fewer_copies_test {
 
 namespace {
 
@@ -111,3 +110,5 @@ TEST_CASE("text: in fewer steps a kernel leaves the words that all of its steps 
     }
     CHECK(fewer_steps < all_steps * 3 / 4);
 }
+
+} // namespace lockstep::test::fewer_copies_test

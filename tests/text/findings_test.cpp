@@ -2,8 +2,7 @@
 
 #include "tests/text/text_kernel.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::findings_test {
 
 namespace {
 
@@ -324,3 +323,5 @@ TEST_CASE("text findings: a loop that does not end is a finding, and ends the di
     CHECK(found_in("while (x[0] == 0.0)\n    x[1] += 1.0;\nx[2] = pow(-1.0, 2.0);") ==
           Lines{"4 loop that does not end"});
 }
+
+} // namespace lockstep::test::findings_test

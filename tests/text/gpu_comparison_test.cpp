@@ -9,8 +9,8 @@
 #include "tests/system_run.hpp"
 #include "tests/text/text_kernel.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::gpu_comparison_test {
+
 using Catch::Contains;
 
 namespace {
@@ -123,3 +123,5 @@ TEST_CASE("GPU comparison: findings leave open what differs, and what is not run
     CHECK_THAT(open.text(), Contains("64 of 64 words are not as the text has them; what was found leaves them open"));
     CHECK_THAT(compared(kernel("    x[i] = 1.0;"), kernel("    x[i] = nothing;")).not_run, Contains("kernel.comp:7"));
 }
+
+} // namespace lockstep::test::gpu_comparison_test

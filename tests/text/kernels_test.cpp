@@ -6,8 +6,7 @@
 #include "reference/model/error.hpp"
 #include "tests/text/text_kernel.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::kernels_test {
 
 namespace {
 
@@ -483,3 +482,5 @@ TEST_CASE("text: what is not interpreted is refused by name and line") {
                Contains("does not end: no end within"));
     CHECK_THAT(refusal(head + "void main() {\n    x[0] = undeclared;\n}\n"), Contains("kernel.comp:4: "));
 }
+
+} // namespace lockstep::test::kernels_test

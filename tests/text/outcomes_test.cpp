@@ -9,8 +9,8 @@
 #include "reference/text/outcomes.hpp"
 #include "tests/text/text_kernel.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::outcomes_test {
+
 using Catch::Contains;
 
 namespace {
@@ -403,3 +403,5 @@ TEST_CASE("text outcomes: an open float's bits that an operation has chosen are 
             CHECK((word.is_real ? word.set.is_point() : word.more == 0));
         }
 }
+
+} // namespace lockstep::test::outcomes_test

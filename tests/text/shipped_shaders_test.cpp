@@ -15,8 +15,7 @@
 #include "tests/system_run.hpp"
 #include "tests/text/shipped_scene.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::shipped_shaders_test {
 
 namespace {
 
@@ -252,3 +251,5 @@ TEST_CASE("text: a table of all shipped compute stages", "[.][table]") {
         compare("lights", file);
     print(table);
 }
+
+} // namespace lockstep::test::shipped_shaders_test

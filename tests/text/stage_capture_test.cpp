@@ -7,8 +7,8 @@
 #include "crosscheck/text/keeping_text.hpp"
 #include "tests/text/text_stage.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::stage_capture_test {
+
 using Catch::Contains;
 
 TEST_CASE("stage capture: members of a block are kept by its instance's name, or by their own where it has none") {
@@ -63,3 +63,5 @@ TEST_CASE("stage capture: records are the inputs and outputs of each invocation,
     CHECK(made.strips[2].first == 3);
     CHECK(made.is_discarded == std::vector<std::uint8_t>{0, 0});
 }
+
+} // namespace lockstep::test::stage_capture_test

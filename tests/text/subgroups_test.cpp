@@ -6,8 +6,7 @@
 #include "reference/model/error.hpp"
 #include "tests/text/text_stage.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::subgroups_test {
 
 namespace {
 
@@ -144,3 +143,5 @@ TEST_CASE("text: subgroups need a size, which is given") {
     CHECK_THAT(refused("\nsubgroupBarrier();", 4),
                Catch::Contains("kernel.comp:11: a barrier of another scope than a group is not interpreted"));
 }
+
+} // namespace lockstep::test::subgroups_test

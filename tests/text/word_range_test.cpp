@@ -11,8 +11,8 @@
 #include "reference/text/word_range.hpp"
 #include "tests/text/text_kernel.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::word_range_test {
+
 using text::WordRange;
 
 namespace {
@@ -139,3 +139,5 @@ TEST_CASE("text word range: floats and their bits, of either sign") {
     CHECK_FALSE(floats({word(1.0F), 0x80000000U - word(1.0F)})); // up to -0
     CHECK_FALSE(floats({word(std::numeric_limits<float>::infinity()), 1}));
 }
+
+} // namespace lockstep::test::word_range_test

@@ -5,8 +5,7 @@
 #include "reference/model/error.hpp"
 #include "tests/text/text_stage.hpp"
 
-using namespace lockstep;
-using namespace lockstep::test;
+namespace lockstep::test::written_stages_test {
 
 namespace {
 
@@ -303,3 +302,5 @@ TEST_CASE("text stages: a watched run finds outputs that are not written, and wh
           Lines{"6 race on a buffer: invocation 0 writes what invocation 3 touched without an order between: Sums",
                 "6 race on a buffer: invocation 1 writes what invocation 0 touched without an order between: Sums"});
 }
+
+} // namespace lockstep::test::written_stages_test

@@ -9,7 +9,8 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::capsule_test {
+
 using Catch::Contains;
 
 namespace {
@@ -141,3 +142,5 @@ TEST_CASE("capsule: more texels than 100 kB hold are refused") {
     CHECK_THAT(test::error_of([&] { capsule_file(capsule); }),
                Contains("particle 7 in frame 3: its capsule would be ") && Contains("right is at most 100000"));
 }
+
+} // namespace lockstep::test::capsule_test

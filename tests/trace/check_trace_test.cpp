@@ -10,7 +10,8 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::check_trace_test {
+
 using test::check_trace;
 using test::record;
 using test::small_info;
@@ -114,3 +115,5 @@ TEST_CASE("check trace: beyond its last frame a trace has nothing to give") {
     recorded.step(params);
     CHECK_THAT(test::error_of([&] { recorded.step(params); }), Catch::Contains("holds 2 frames, and no more"));
 }
+
+} // namespace lockstep::test::check_trace_test

@@ -11,7 +11,7 @@
 #include "reference/model/error.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::damaged_capsule_test {
 
 namespace {
 
@@ -110,3 +110,5 @@ TEST_CASE("damaged capsules: what is shown cannot pass for lines of a report, no
     CHECK(text.find("\nverdict   AGREE") == std::string::npos);
     CHECK(text.find("x\\nverdict   AGREE\\x1b[2J") != std::string::npos);
 }
+
+} // namespace lockstep::test::damaged_capsule_test

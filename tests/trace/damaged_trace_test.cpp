@@ -21,7 +21,8 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::damaged_trace_test {
+
 using Catch::Contains;
 
 namespace {
@@ -289,3 +290,5 @@ TEST_CASE("damaged traces: no reading process stays behind") {
     CHECK_THAT(test::error_of([&] { const TraceReader trace(file); }), Contains("run.h5: HDF5: "));
     CHECK(reading_process() == -1);
 }
+
+} // namespace lockstep::test::damaged_trace_test

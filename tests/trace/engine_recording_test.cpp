@@ -11,7 +11,8 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::engine_recording_test {
+
 using Catch::Contains;
 
 namespace {
@@ -133,3 +134,5 @@ TEST_CASE("engine recording: particles that are not there yet are not compared, 
     CHECK_THAT(test::error_of([&] { static_cast<void>(whole.check(CheckMode::free)); }),
                Contains("frame 0 has 2000 of 3000 particles; --mode free needs all in every frame"));
 }
+
+} // namespace lockstep::test::engine_recording_test

@@ -3,7 +3,8 @@
 #include "crosscheck/scene/profile_json.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::profile_json_test {
+
 using Catch::Contains;
 
 namespace {
@@ -72,3 +73,5 @@ TEST_CASE("profile json: what cannot be is refused with what can") {
                Contains("/point_sizes: \"largest\" is below \"smallest\""));
     CHECK_THAT(refusal(R"({"name": "x", "raster": {"left_edge_in": true}})"), Contains("is not one of off, on"));
 }
+
+} // namespace lockstep::test::profile_json_test

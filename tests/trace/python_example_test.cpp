@@ -10,7 +10,7 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::python_example_test {
 
 namespace {
 
@@ -56,3 +56,5 @@ TEST_CASE("python example: a mistake in it is divergent") {
     CHECK(report.verdict == Verdict::divergent);
     CHECK(report.first_frame == 0);
 }
+
+} // namespace lockstep::test::python_example_test

@@ -6,7 +6,7 @@
 #include "crosscheck/record/root_offsets.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::root_offsets_test {
 
 namespace {
 
@@ -37,3 +37,5 @@ TEST_CASE("root offsets: a table too far off is refused") {
     CHECK_THAT(test::error_of([&] { root_offsets(tables); }),
                Catch::Contains("the driver's inversesqrt is more than 127 units in the last place off"));
 }
+
+} // namespace lockstep::test::root_offsets_test

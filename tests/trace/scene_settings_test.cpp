@@ -9,7 +9,7 @@
 #include "crosscheck/scene/scene_settings.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::scene_settings_test {
 
 namespace {
 
@@ -109,3 +109,5 @@ TEST_CASE("scene settings: a capsule keeps those of its frame and of the one bef
     CHECK(near(7) == std::vector{6});
     CHECK(near(9) == std::vector{6});
 }
+
+} // namespace lockstep::test::scene_settings_test

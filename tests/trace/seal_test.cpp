@@ -6,7 +6,8 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::seal_test {
+
 using Catch::Contains;
 using test::error_of;
 
@@ -99,3 +100,5 @@ TEST_CASE("seal: a seal that was touched is refused, line by line") {
     CHECK_THAT(refusal("b\n", "b\nx"), Contains("something other than zero bytes"));
     CHECK_THAT(error_of([&] { parse_seal(good.substr(0, 40), "run.h5"); }), Contains("its third line"));
 }
+
+} // namespace lockstep::test::seal_test

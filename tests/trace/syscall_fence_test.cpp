@@ -16,7 +16,7 @@
 #include "gpu/syscall_fence.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::syscall_fence_test {
 
 namespace {
 
@@ -75,3 +75,5 @@ TEST_CASE("syscall fence: nothing is started, written, removed, sent or made exe
     for (const int descriptor : {opened, ends[0], ends[1]})
         close(descriptor);
 }
+
+} // namespace lockstep::test::syscall_fence_test

@@ -17,7 +17,8 @@
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::trace_file_test {
+
 using Catch::Contains;
 using Catch::StartsWith;
 
@@ -417,3 +418,5 @@ TEST_CASE("trace: settings of a frame that was not recorded are refused") {
     CHECK_THAT(test::error_of([&] { TraceReader reader(file); }),
                Contains("parameters/lockstep/scene: /frames/0: frame 2; 2 were recorded, counted from 0"));
 }
+
+} // namespace lockstep::test::trace_file_test

@@ -8,7 +8,8 @@
 #include "reference/model/error.hpp"
 #include "tests/trace/small_trace.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::trace_messages_test {
+
 using Catch::Contains;
 
 namespace {
@@ -159,3 +160,5 @@ TEST_CASE("trace messages: a state of another frame or size is not taken for the
     Script late;
     CHECK(cdt_refusal(late.say(MessageKind::error, "row 5: broken")) == "run.h5: row 5: broken");
 }
+
+} // namespace lockstep::test::trace_messages_test

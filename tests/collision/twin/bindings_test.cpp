@@ -14,7 +14,8 @@
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::bindings_test {
+
 using Catch::Contains;
 
 namespace {
@@ -282,3 +283,5 @@ TEST_CASE("bindings: what does not fit is told with the file, the place in it an
     CHECK_THAT(error_of(unbound), Contains("nothing is given for uniform block Frame; bindings.json beside the shader "
                                            "binds its members"));
 }
+
+} // namespace lockstep::test::bindings_test

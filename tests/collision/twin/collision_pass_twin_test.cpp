@@ -14,7 +14,8 @@
 #include "tests/collision/twin/random_scenes.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::collision_pass_twin_test {
+
 using test::crowded_scene;
 
 namespace {
@@ -269,3 +270,5 @@ TEST_CASE("collision pass twin: the same bits through EGL") {
         check_agree(with_preset(odd_scene(), base));
     }
 }
+
+} // namespace lockstep::test::collision_pass_twin_test

@@ -19,7 +19,8 @@
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::compute_collision_pass_twin_test {
+
 using test::compute_scene;
 using test::open_compute;
 
@@ -342,3 +343,5 @@ TEST_CASE("compute collision pass twin: what does not fit is told") {
                Catch::Contains("collision_texels.frag") &&
                    Catch::Contains("nothing is given for storage buffer Nearer"));
 }
+
+} // namespace lockstep::test::compute_collision_pass_twin_test

@@ -12,7 +12,7 @@
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::debug_session_test {
 
 namespace {
 
@@ -158,3 +158,5 @@ TEST_CASE("debug_session: set changes both sides and keeps the place") {
     CHECK(session.obey("quit").empty());
     CHECK(session.ended());
 }
+
+} // namespace lockstep::test::debug_session_test

@@ -15,7 +15,7 @@
 #include "tests/collision/twin/told_causes.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::depth_pass_twin_test {
 
 namespace {
 
@@ -206,3 +206,5 @@ TEST_CASE("depth pass twin: planted bugs are seen, and those that people make ar
             CHECK(told == std::vector{cause});
     }
 }
+
+} // namespace lockstep::test::depth_pass_twin_test

@@ -14,7 +14,7 @@
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::explain_test {
 
 namespace {
 
@@ -242,3 +242,5 @@ TEST_CASE("explain: an output that cannot be captured is named") {
     CHECK_THROWS_WITH(run.capture(3), "trace build of collision_pass, vertex stage: output trace_long is double, which "
                                       "cannot be captured; scalars, vectors and matrices of float, int and uint can");
 }
+
+} // namespace lockstep::test::explain_test

@@ -10,7 +10,7 @@
 #include "tests/golden.hpp"
 #include "tests/skip.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::golden_hash_twin_test {
 
 TEST_CASE("golden hash twin: the shaders come to it by themselves") {
     const auto context = test::open_llvmpipe();
@@ -41,3 +41,5 @@ TEST_CASE("golden hash twin: the shaders come to it by themselves") {
         CHECK(hash_text(state_hash(particles, cdt)) == expected);
     }
 }
+
+} // namespace lockstep::test::golden_hash_twin_test

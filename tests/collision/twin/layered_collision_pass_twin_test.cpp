@@ -12,7 +12,8 @@
 #include "tests/collision/twin/random_scenes.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::layered_collision_pass_twin_test {
+
 using test::crowded_scene;
 
 namespace {
@@ -191,3 +192,5 @@ TEST_CASE("layered collision pass twin: the same bits through EGL") {
         CHECK(check_agree(with(crowded_scene(), base, settings), 6).hits > 0);
     });
 }
+
+} // namespace lockstep::test::layered_collision_pass_twin_test

@@ -10,7 +10,8 @@
 #include "tests/planted_shader.hpp"
 #include "tests/shader_clock.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::no_false_pass_test {
+
 using test::check_twins;
 using test::crowded_scene;
 
@@ -270,3 +271,5 @@ TEST_CASE("no false pass: the layered passes, too, are refused uniforms and attr
         CHECK_THAT(refusal(shaders, layered), Catch::Contains("nothing is given for attribute a_Sped"));
     }
 }
+
+} // namespace lockstep::test::no_false_pass_test

@@ -10,7 +10,7 @@
 #include "tests/collision/twin/told_causes.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::not_searching_twin_test {
 
 namespace {
 
@@ -101,3 +101,5 @@ TEST_CASE("not searching twin: who searches without a hit and stands is not said
     CHECK(stands == std::vector<std::string>{"no_fall_after_missed_search"});
     CHECK_THAT(told("    integrate();\n"), Catch::VectorContains(std::string("never_collides")));
 }
+
+} // namespace lockstep::test::not_searching_twin_test

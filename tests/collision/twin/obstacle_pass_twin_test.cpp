@@ -13,7 +13,7 @@
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/random_scenes.hpp"
 
-namespace lockstep {
+namespace lockstep::test::obstacle_pass_twin_test {
 namespace {
 
 template <class Texel> bool same_bits(const Texel& a, const Texel& b) {
@@ -320,4 +320,4 @@ TEST_CASE("obstacle pass twin: another driver differs in edge ties, and by no mo
     CHECK(ties < 500);
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::obstacle_pass_twin_test

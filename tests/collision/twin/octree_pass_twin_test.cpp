@@ -15,7 +15,7 @@
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::octree_pass_twin_test {
 
 namespace {
 
@@ -231,3 +231,5 @@ TEST_CASE("octree pass twin: planted bugs are seen") {
         CHECK(test::check_twins(scene, 6, shaders.path()).verdict == Verdict::divergent);
     }
 }
+
+} // namespace lockstep::test::octree_pass_twin_test

@@ -9,7 +9,7 @@
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/planted_shader.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::planted_bugs_test {
 
 namespace {
 
@@ -195,3 +195,5 @@ TEST_CASE("planted bugs: with none, the same run agrees") {
     CHECK(report.verdict == Verdict::agree);
     CHECK_FALSE(report.first_frame.has_value());
 }
+
+} // namespace lockstep::test::planted_bugs_test

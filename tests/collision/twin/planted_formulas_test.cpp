@@ -5,7 +5,8 @@
 
 #include "tests/collision/twin/planted_formulas.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::planted_formulas_test {
+
 using namespace lockstep::test::formulas;
 
 namespace {
@@ -136,3 +137,5 @@ std::vector<Plant> drawing_plants() {
 TEST_CASE("planted formulas: each of the step is told by its name") { check_told(plants()); }
 
 TEST_CASE("planted formulas: each of what is drawn is told by its name") { check_told(drawing_plants()); }
+
+} // namespace lockstep::test::planted_formulas_test

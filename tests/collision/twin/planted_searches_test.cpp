@@ -5,6 +5,8 @@
 
 #include "tests/collision/twin/planted_formulas.hpp"
 
+namespace lockstep::test::planted_searches_test {
+
 using namespace lockstep::test::formulas;
 
 namespace {
@@ -145,3 +147,5 @@ TEST_CASE("planted searches: choices among neighbours are told by their names") 
 TEST_CASE("planted searches: windows, and who searches, are told by their names") { check_told(windows()); }
 
 TEST_CASE("planted searches: answers and falls are told by their names") { check_told(answers()); }
+
+} // namespace lockstep::test::planted_searches_test

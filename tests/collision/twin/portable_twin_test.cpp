@@ -17,7 +17,7 @@
 #include "gpu/program.hpp"
 #include "tests/gpu/any_context.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::portable_twin_test {
 
 namespace {
 
@@ -249,3 +249,5 @@ TEST_CASE("portable twin: the plain arithmetic has the same functions") {
     for (const Function function : {Function::quotients, Function::roots, Function::vectors, Function::transform})
         CHECK_NOTHROW(function_program(function, "corrected"));
 }
+
+} // namespace lockstep::test::portable_twin_test

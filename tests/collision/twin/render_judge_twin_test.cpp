@@ -16,7 +16,7 @@
 #include "tests/collision/twin/random_scenes.hpp"
 #include "tests/planted_shader.hpp"
 
-namespace lockstep {
+namespace lockstep::test::render_judge_twin_test {
 namespace {
 
 /// What a frame is drawn of.
@@ -330,4 +330,4 @@ TEST_CASE("render judge: the shipped shaders agree, and a driver that rounds oth
     CHECK(differing > 0);
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::render_judge_twin_test

@@ -9,7 +9,7 @@
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/random_scenes.hpp"
 
-namespace lockstep {
+namespace lockstep::test::render_pass_twin_test {
 namespace {
 
 ColorImage gpu_render(const Particles& particles, const Mesh& obstacles, const FrameParams& params) {
@@ -160,4 +160,4 @@ TEST_CASE("render pass: an image GL cannot make is told with its limits", "[rend
                       Catch::StartsWith("rendered image of 0 x 10 pixels: this GL allows 1 to "));
 }
 
-} // namespace lockstep
+} // namespace lockstep::test::render_pass_twin_test

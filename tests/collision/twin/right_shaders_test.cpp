@@ -12,7 +12,7 @@
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::right_shaders_test {
 
 namespace {
 
@@ -135,3 +135,5 @@ TEST_CASE("right shaders: no search by octree or in layers that is right in anot
             }
     }
 }
+
+} // namespace lockstep::test::right_shaders_test

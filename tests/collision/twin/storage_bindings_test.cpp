@@ -10,7 +10,8 @@
 #include "tests/collision/twin/shader_files.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::storage_bindings_test {
+
 using Catch::Contains;
 
 namespace {
@@ -341,3 +342,5 @@ TEST_CASE("storage bindings: a block without a binding of its own is not taken f
     CHECK_THROWS_WITH(test::check_twins(test::compute_scene("corrected", 200), 2, shaders.path()),
                       Contains(" at binding 0, where "));
 }
+
+} // namespace lockstep::test::storage_bindings_test

@@ -5,7 +5,7 @@
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::study_twin_test {
 
 TEST_CASE("study twin: both sides give the same study, number for number") {
     const auto context = test::open_llvmpipe();
@@ -27,3 +27,5 @@ TEST_CASE("study twin: both sides give the same study, number for number") {
         CHECK(study_csv(study_run(scene, profile, gpu, options)) == study_csv(reference));
     }
 }
+
+} // namespace lockstep::test::study_twin_test

@@ -12,7 +12,7 @@
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/temporary_folder.hpp"
 
-using namespace lockstep;
+namespace lockstep::test::wrong_shaders_test {
 
 namespace {
 
@@ -50,3 +50,5 @@ TEST_CASE("wrong shaders: the cause of each, whatever its style, is told by its 
             CHECK(std::find(told.begin(), told.end(), cause) != told.end());
     }
 }
+
+} // namespace lockstep::test::wrong_shaders_test

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <optional>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -157,7 +158,15 @@ std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span
     StageInput input = stage_input(pass, arithmetic);
     if (traced)
         input.defines.emplace_back("LOCKSTEP_TRACE", "1");
-    return load_stages(shader_folders(shaders, schema->system), pass.name, stages, input.defines, input.texts);
+    std::vector<ShaderSource> all =
+        load_stages(shader_folders(shaders, schema->system), pass.name, stages, input.defines, input.texts);
+    if (!pass.uniform_blocks.empty())
+        for (ShaderSource& stage : all) {
+            Bindings bound = stage.bindings != nullptr ? *stage.bindings : Bindings{};
+            bound.blocks.insert(bound.blocks.end(), pass.uniform_blocks.begin(), pass.uniform_blocks.end());
+            stage.bindings = std::make_shared<const Bindings>(std::move(bound));
+        }
+    return all;
 }
 
 void GlSystem::upload(const SystemView& state) {
@@ -203,20 +212,8 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
     const std::uint8_t resource = linked.pass.resource;
     set_uniforms(linked.program, linked.pass, items(resource), frame);
     lend_images(linked.program, linked.pass);
-    if (linked.pass.stage == Stage::compute && is_image(resource)) {
-        const bool words = linked.pass.writes_words;
-        for (std::size_t i = 0; i < linked.resources.size(); ++i) {
-            StateImage& after = image_to(linked.resources[i]);
-            if (linked.pass.invocations)
-                after.copy(image_from(linked.resources[i]));
-            const Resource& about = schema->resources[linked.resources[i]];
-            linked.program.set_unit("u_" + shader_name(about.name) + "After", static_cast<int>(i),
-                                    words ? GL_UNSIGNED_INT_IMAGE_3D : image_type(about));
-            gl::BindImageTexture(static_cast<GLuint>(i), after.id(), 0, GL_TRUE, 0,
-                                 linked.pass.invocations ? GL_READ_WRITE : GL_WRITE_ONLY,
-                                 words ? GL_R32UI : after.format().layout.internal);
-        }
-    }
+    if (linked.pass.stage == Stage::compute)
+        bind_images(linked);
     if (linked.pass.draw)
         draw(linked);
     else if (linked.pass.stage == Stage::vertex)
@@ -228,6 +225,37 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
     check_gl(linked.pass.name);
     if (!takes_times)
         check_ends(linked, fmt::format("frame {}: ", frame));
+}
+
+void GlSystem::Parts::bind_images(const Linked& linked) {
+    GLuint unit = 0;
+    const auto bind = [&](const std::string& name, GLenum type, StateImage& image, GLenum access, GLenum format) {
+        linked.program.set_unit(name, static_cast<int>(unit), type);
+        gl::BindImageTexture(unit++, image.id(), 0, GL_TRUE, 0, access, format);
+    };
+    std::set<std::uint8_t> named;
+    for (const auto& [name, target] : linked.pass.names) {
+        if (!is_image(target.resource) || target.is_sampler)
+            continue;
+        using enum GlName::Kind;
+        if (target.kind != before && named.insert(target.resource).second && target.kind == in_place)
+            image_to(target.resource).copy(image_from(target.resource));
+        StateImage& image = target.kind == before ? image_from(target.resource) : image_to(target.resource);
+        bind(name, image_type(schema->resources[target.resource]), image, GL_READ_WRITE,
+             image.format().layout.internal);
+    }
+    const bool words = linked.pass.writes_words;
+    for (const std::uint8_t resource : linked.resources) {
+        if (!is_image(resource) || named.contains(resource))
+            continue;
+        StateImage& after = image_to(resource);
+        if (linked.pass.invocations)
+            after.copy(image_from(resource));
+        const Resource& about = schema->resources[resource];
+        bind("u_" + shader_name(about.name) + "After", words ? GL_UNSIGNED_INT_IMAGE_3D : image_type(about), after,
+             linked.pass.invocations ? GL_READ_WRITE : GL_WRITE_ONLY,
+             words ? GL_R32UI : after.format().layout.internal);
+    }
 }
 
 void GlSystem::Parts::check_ends(const Linked& linked, const std::string& when) {
@@ -272,14 +300,16 @@ std::optional<std::uint64_t> GlSystem::ran_over() const { return parts_->ran_ove
 
 void GlSystem::lay_canary(std::size_t pass) {
     parts_->canary_laid = pass;
-    if (const std::optional<Parts::Linked>& linked = parts_->passes.at(pass);
-        linked && parts_->is_image(linked->pass.resource))
-        for (const std::uint8_t r : linked->resources)
+    const std::optional<Parts::Linked>& linked = parts_->passes.at(pass);
+    if (!linked)
+        return;
+    const bool of_images = parts_->is_image(linked->pass.resource);
+    for (const std::uint8_t r : linked->resources)
+        if (of_images && parts_->is_image(r))
             parts_->image_to(r).fill(canary_word);
-    else if (linked)
-        for (std::size_t s = 0; s < parts_->storages.size(); ++s)
-            if (parts_->storages[s].layout.resource == linked->pass.resource)
-                parts_->to(s).fill(canary_word);
+    for (std::size_t s = 0; s < parts_->storages.size(); ++s)
+        if (parts_->storages[s].layout.resource == linked->pass.resource)
+            parts_->to(s).fill(canary_word);
 }
 
 void GlSystem::read(SystemState& state) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include <glm/mat2x2.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -24,14 +27,26 @@
 namespace lockstep {
 
 /// A uniform's value; its type in GLSL is this one.
-using UniformValue =
-    std::variant<float, int, unsigned, glm::vec2, glm::vec3, glm::vec4, glm::ivec2, glm::ivec3, glm::mat4>;
+using UniformValue = std::variant<float, int, unsigned, bool, glm::vec2, glm::vec3, glm::vec4, glm::ivec2, glm::ivec3,
+                                  glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::mat2, glm::mat3, glm::mat4>;
 using Uniforms = std::map<std::string, UniformValue>;
 
 /// Three words of an item that say how many groups a dispatch has.
 struct GroupCounts {
     FieldId field; ///< three uints, of a buffer with storage blocks
     std::size_t item = 0;
+};
+
+/// What a storage block, sampler or image uniform of a shader is, which goes by a name of its own.
+struct GlName {
+    enum class Kind : std::uint8_t {
+        before,  ///< as the pass found it
+        after,   ///< as it leaves it: every item is written
+        in_place ///< both; of a buffer whose fields have a block always so
+    };
+    std::uint8_t resource = 0;
+    Kind kind = Kind::before;
+    bool is_sampler = false;
 };
 
 /// How a shader's texture() reads an image of the state: GL_LINEAR, at its edges clamped or with 0 beyond them.
@@ -96,9 +111,18 @@ struct GlPass {
     /// Of a compute pass: where its group counts lie, for an indirect dispatch. Items that no group makes stay as they
     /// were.
     std::optional<GroupCounts> indirect = {};
+    /// Of a compute pass: how many groups it has along each axis, instead of as many as its items take. Items that none
+    /// makes stay as they were.
+    std::optional<std::array<std::uint32_t, 3>> groups = {};
+    /// Names of its shader's blocks, samplers and images beside those above; where one is an image's, none of those.
+    std::map<std::string, GlName, std::less<>> names = {};
+    /// Uniform blocks whose members get values by their names in GL, as plain uniforms do: Frame.tick, or tick.
+    std::vector<std::string> uniform_blocks = {};
+    /// How a uniform that nothing is given for gets a value, for messages; empty: by bindings.json.
+    std::string advice = {};
 
     /// Whether the shader may leave items out of a buffer in two copies.
-    [[nodiscard]] bool keeps() const { return invocations || indirect; }
+    [[nodiscard]] bool keeps() const { return invocations || indirect || groups; }
 };
 
 /// With what its files are put together.

@@ -32,6 +32,14 @@ std::map<std::string, BoundBlock> our_blocks(const Schema& schema, const std::ve
     }
     for (const auto& [name, words] : pass.data)
         all[name] = {BoundBlock::Kind::data, 0, name};
+    for (const auto& [name, target] : pass.names)
+        for (std::size_t s = 0; s < storages.size(); ++s)
+            if (storages[s].layout.resource == target.resource)
+                all[name] = {!storages[s].block.empty()            ? BoundBlock::Kind::in_place
+                             : target.kind == GlName::Kind::before ? BoundBlock::Kind::before
+                                                                   : BoundBlock::Kind::after,
+                             s,
+                             {}};
     return all;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "gpu/gl_system_parts.hpp"
+#include "gpu/nothing_given.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -20,19 +21,19 @@ std::optional<GLintptr> GlSystem::Parts::group_counts(const Linked& linked) {
     for (std::size_t s = 0; s < storages.size(); ++s) {
         if (storages[s].layout.resource != of.field.resource)
             continue;
-        std::size_t words = 0;
-        for (const RecordLayout::Member& member : storages[s].layout.members) {
-            const Field& field = storages[s].layout.field(member);
-            if (member.field == of.field.field) {
-                const std::size_t place = of.item * storages[s].layout.bytes() + words * sizeof(std::uint32_t);
-                const std::array<std::uint32_t, 3> counts = from(s).three_words(place);
-                gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, from(s).id());
-                const bool fits = std::all_of(counts.begin(), counts.end(), [](auto n) { return n <= most_groups; });
-                if (fits)
-                    ran_over = std::uint64_t{counts[0]} * counts[1] * counts[2] * linked.invocations;
-                return fits ? std::optional(static_cast<GLintptr>(place)) : std::nullopt;
-            }
-            words += static_cast<std::size_t>(field.components);
+        std::optional<std::size_t> word;
+        storages[s].layout.for_each_member([&](const RecordLayout::Member& member, std::size_t first) {
+            if (member.field == of.field.field)
+                word = first;
+        });
+        if (word) {
+            const std::size_t place = of.item * storages[s].layout.bytes() + *word * sizeof(std::uint32_t);
+            const std::array<std::uint32_t, 3> counts = from(s).three_words(place);
+            gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, from(s).id());
+            const bool fits = std::all_of(counts.begin(), counts.end(), [](auto n) { return n <= most_groups; });
+            if (fits)
+                ran_over = std::uint64_t{counts[0]} * counts[1] * counts[2] * linked.invocations;
+            return fits ? std::optional(static_cast<GLintptr>(place)) : std::nullopt;
         }
     }
     return {};
@@ -56,7 +57,13 @@ GLuint groups(std::string_view pass, std::size_t count, std::size_t size, GLuint
 
 void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     using Kind = BoundBlock::Kind;
-    linked.program.check_interface();
+    try {
+        linked.program.check_interface();
+    } catch (const NothingGiven& missing) {
+        if (linked.pass.advice.empty())
+            throw;
+        throw NothingGiven(missing.names, "; " + linked.pass.advice);
+    }
     const auto is_copied = [&](std::uint8_t resource) { return kept || !in_place(resource); };
     for (std::size_t s = 0; s < storages.size(); ++s)
         if ((!storages[s].block.empty() || linked.pass.keeps()) && is_copied(storages[s].layout.resource) &&
@@ -91,11 +98,16 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     const std::size_t items =
         linked.pass.invocations ? linked.pass.invocations(frame) : this->items(linked.pass.resource);
     ran_over = items;
+    if (linked.pass.groups)
+        ran_over = std::uint64_t{(*linked.pass.groups)[0]} * (*linked.pass.groups)[1] * (*linked.pass.groups)[2] *
+                   linked.invocations;
     // Negative: as many groups as the items take.
     const GLintptr place = linked.pass.indirect ? group_counts(linked).value_or(-1) : -1;
     linked.program.use();
     timed([&] {
-        if (place >= 0)
+        if (linked.pass.groups)
+            gl::DispatchCompute((*linked.pass.groups)[0], (*linked.pass.groups)[1], (*linked.pass.groups)[2]);
+        else if (place >= 0)
             gl::DispatchComputeIndirect(place);
         else if (is_image(linked.pass.resource) && !linked.pass.invocations)
             dispatch_image(linked);

@@ -39,6 +39,9 @@ void GlSystem::Parts::lend_images(const Program& program, const GlPass& pass) co
         const Resource& about = schema->resources[resource];
         const auto unit = static_cast<int>(first_unit++);
         program.set_unit("u_" + shader_name(about.name) + "Before", unit, sampler_type(about));
+        for (const auto& [name, target] : pass.names)
+            if (target.resource == resource && target.is_sampler)
+                program.set_unit(name, unit, sampler_type(about));
         gl::ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
         gl::BindTexture(two.front().target(), two[current[resource]].id());
         const auto filter = pass.filters.find(resource);

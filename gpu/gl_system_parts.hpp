@@ -96,6 +96,8 @@ struct GlSystem::Parts {
     void capture(const Linked& linked);
     void draw(const Linked& linked);
     void dispatch_image(const Linked& linked);
+    /// Binds the images that a compute pass writes, or reads by imageLoad.
+    void bind_images(const Linked& linked);
     /// Lends the program the state's images, as the pass before left them.
     void lend_images(const Program& program, const GlPass& pass) const;
     [[nodiscard]] GLuint sampler(GlFilter filter) const;

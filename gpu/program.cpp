@@ -283,6 +283,11 @@ void Program::set(std::string_view uniform, unsigned value) const {
     set_words(uniform, GL_UNSIGNED_INT, words_of<1>(&value));
 }
 
+void Program::set(std::string_view uniform, bool value) const {
+    const std::uint32_t word = value ? 1 : 0;
+    set_words(uniform, GL_BOOL, {&word, 1});
+}
+
 void Program::set(std::string_view uniform, glm::vec2 value) const {
     set_words(uniform, GL_FLOAT_VEC2, words_of<2>(glm::value_ptr(value)));
 }
@@ -301,6 +306,30 @@ void Program::set(std::string_view uniform, glm::ivec2 value) const {
 
 void Program::set(std::string_view uniform, glm::ivec3 value) const {
     set_words(uniform, GL_INT_VEC3, words_of<3>(glm::value_ptr(value)));
+}
+
+void Program::set(std::string_view uniform, glm::ivec4 value) const {
+    set_words(uniform, GL_INT_VEC4, words_of<4>(glm::value_ptr(value)));
+}
+
+void Program::set(std::string_view uniform, glm::uvec2 value) const {
+    set_words(uniform, GL_UNSIGNED_INT_VEC2, words_of<2>(glm::value_ptr(value)));
+}
+
+void Program::set(std::string_view uniform, glm::uvec3 value) const {
+    set_words(uniform, GL_UNSIGNED_INT_VEC3, words_of<3>(glm::value_ptr(value)));
+}
+
+void Program::set(std::string_view uniform, glm::uvec4 value) const {
+    set_words(uniform, GL_UNSIGNED_INT_VEC4, words_of<4>(glm::value_ptr(value)));
+}
+
+void Program::set(std::string_view uniform, const glm::mat2& value) const {
+    set_words(uniform, GL_FLOAT_MAT2, words_of<4>(glm::value_ptr(value)));
+}
+
+void Program::set(std::string_view uniform, const glm::mat3& value) const {
+    set_words(uniform, GL_FLOAT_MAT3, words_of<9>(glm::value_ptr(value)));
 }
 
 void Program::set(std::string_view uniform, const glm::mat4& value) const {

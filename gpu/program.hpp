@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/mat2x2.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -57,11 +59,18 @@ class Program {
     void set(std::string_view uniform, float value) const;
     void set(std::string_view uniform, int value) const;
     void set(std::string_view uniform, unsigned value) const;
+    void set(std::string_view uniform, bool value) const;
     void set(std::string_view uniform, glm::vec2 value) const;
     void set(std::string_view uniform, glm::vec3 value) const;
     void set(std::string_view uniform, glm::vec4 value) const;
     void set(std::string_view uniform, glm::ivec2 value) const;
     void set(std::string_view uniform, glm::ivec3 value) const;
+    void set(std::string_view uniform, glm::ivec4 value) const;
+    void set(std::string_view uniform, glm::uvec2 value) const;
+    void set(std::string_view uniform, glm::uvec3 value) const;
+    void set(std::string_view uniform, glm::uvec4 value) const;
+    void set(std::string_view uniform, const glm::mat2& value) const;
+    void set(std::string_view uniform, const glm::mat3& value) const;
     void set(std::string_view uniform, const glm::mat4& value) const;
 
     /// Reads a sampler or image uniform from texture (or image) unit `unit`.

@@ -358,16 +358,20 @@ void UniformValues::write(std::size_t variable, std::span<const std::uint32_t> w
     const ProgramVariable& to = interface_[variable];
     if (to.block >= 0) {
         gl::BindBuffer(GL_UNIFORM_BUFFER, blocks_[static_cast<std::size_t>(to.block)].id());
-        if (to.type != GL_FLOAT_MAT4) {
+        const std::size_t side = to.type == GL_FLOAT_MAT2   ? 2
+                                 : to.type == GL_FLOAT_MAT3 ? 3
+                                 : to.type == GL_FLOAT_MAT4 ? 4
+                                                            : 0;
+        if (side == 0) {
             gl::BufferSubData(GL_UNIFORM_BUFFER, to.offset, static_cast<GLsizeiptr>(words.size_bytes()), words.data());
             return;
         }
-        for (std::size_t line = 0; line < 4; ++line) {
+        for (std::size_t line = 0; line < side; ++line) {
             std::array<std::uint32_t, 4> values{};
-            for (std::size_t i = 0; i < 4; ++i)
-                values[i] = to.row_major != to.transposed ? words[4 * i + line] : words[4 * line + i];
+            for (std::size_t i = 0; i < side; ++i)
+                values[i] = to.row_major != to.transposed ? words[side * i + line] : words[side * line + i];
             gl::BufferSubData(GL_UNIFORM_BUFFER, to.offset + static_cast<GLintptr>(line) * to.matrix_stride,
-                              sizeof values, values.data());
+                              static_cast<GLsizeiptr>(side * sizeof values[0]), values.data());
         }
         return;
     }

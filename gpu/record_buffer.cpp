@@ -210,12 +210,9 @@ class Block {
 
   private:
     template <class Work> void for_each_member(const Work& work) const {
-        std::size_t offset = 0;
-        for (const RecordLayout::Member& member : layout_.members) {
-            const auto words = static_cast<std::size_t>(layout_.field(member).components);
-            work(member.field, words, offset);
-            offset += words * word;
-        }
+        layout_.for_each_member([&](const RecordLayout::Member& member, std::size_t first) {
+            work(member.field, static_cast<std::size_t>(layout_.field(member).components), first * word);
+        });
     }
 
     const RecordLayout& layout_;
@@ -245,11 +242,12 @@ bool RecordLayout::has(FieldId id) const {
            std::ranges::any_of(members, [&](const Member& member) { return member.field == id.field; });
 }
 
-std::size_t RecordLayout::bytes() const {
+std::size_t RecordLayout::words() const {
     std::size_t words = 0;
-    for (const Member& member : members)
-        words += static_cast<std::size_t>(field(member).components);
-    return words * word;
+    for_each_member([&](const Member& member, std::size_t first) {
+        words = std::max(words, first + static_cast<std::size_t>(field(member).components));
+    });
+    return about().record_words.value_or(static_cast<std::uint32_t>(words));
 }
 
 std::vector<Capture> RecordLayout::captures() const {
@@ -337,17 +335,18 @@ bool holds_numbers(const RecordLayout& layout, const std::byte* memory, const Vi
     const std::size_t bytes = layout.bytes();
     for (; first < last; first += some) {
         const std::size_t count = std::min(some, last - first);
-        const std::byte* of_member = memory + first * bytes;
-        for (const RecordLayout::Member& member : layout.members) {
+        bool same = true;
+        layout.for_each_member([&](const RecordLayout::Member& member, std::size_t place) {
             const Field& field = layout.field(member);
             const auto words = static_cast<std::size_t>(field.components);
             const std::byte* const column = state.columns[member.field];
             const std::byte* const values = column + first * words * word;
-            if (column != nullptr && (!are_alike(words, of_member, bytes, values, count) ||
-                                      (field.scalar == Scalar::float32 && has_nan(values, count * words))))
-                return false;
-            of_member += words * word;
-        }
+            same = same && (column == nullptr ||
+                            (are_alike(words, memory + first * bytes + place * word, bytes, values, count) &&
+                             (field.scalar != Scalar::float32 || !has_nan(values, count * words))));
+        });
+        if (!same)
+            return false;
     }
     return true;
 }
@@ -412,14 +411,12 @@ void feed(const RecordBuffer& buffer, const Program& program, GLuint divisor) {
     gl::BindBuffer(GL_ARRAY_BUFFER, buffer.id());
     const RecordLayout& layout = buffer.layout();
     const auto stride = static_cast<GLsizei>(layout.bytes());
-    std::size_t offset = 0;
-    for (const RecordLayout::Member& member : layout.members) {
+    layout.for_each_member([&](const RecordLayout::Member& member, std::size_t first) {
         const Field& field = layout.field(member);
         const GLint found = program.attribute("a_" + member.name, gl_type(field));
-        const auto* const start = reinterpret_cast<const void*>(offset);
-        offset += static_cast<std::size_t>(field.components) * word;
+        const auto* const start = reinterpret_cast<const void*>(first * word);
         if (found < 0)
-            continue;
+            return;
         const auto location = static_cast<GLuint>(found);
         gl::EnableVertexAttribArray(location);
         if (field.scalar == Scalar::float32)
@@ -428,7 +425,7 @@ void feed(const RecordBuffer& buffer, const Program& program, GLuint divisor) {
             gl::VertexAttribIPointer(location, field.components,
                                      field.scalar == Scalar::int32 ? GL_INT : GL_UNSIGNED_INT, stride, start);
         gl::VertexAttribDivisor(location, divisor);
-    }
+    });
 }
 
 } // namespace

@@ -15,7 +15,8 @@
 
 namespace lockstep {
 
-/// How a GL buffer holds fields of a buffer of a schema: a record an item, without gaps, one field after the other.
+/// How a GL buffer holds fields of a buffer of a schema: a record an item, one field after the other without gaps, or
+/// where the schema says (Field::at).
 struct RecordLayout {
     struct Member {
         std::uint8_t field = 0;
@@ -27,7 +28,17 @@ struct RecordLayout {
 
     [[nodiscard]] const Resource& about() const { return schema->resources[resource]; }
     [[nodiscard]] const Field& field(const Member& member) const { return about().fields[member.field]; }
-    [[nodiscard]] std::size_t bytes() const; ///< of a record
+    [[nodiscard]] std::size_t words() const; ///< of a record
+    [[nodiscard]] std::size_t bytes() const { return words() * sizeof(std::uint32_t); }
+    /// Calls `visit(member, its first word in a record)`.
+    template <class Visit> void for_each_member(const Visit& visit) const {
+        std::size_t next = 0;
+        for (const Member& member : members) {
+            const std::size_t first = field(member).at.value_or(static_cast<std::uint32_t>(next));
+            visit(member, first);
+            next = first + static_cast<std::size_t>(field(member).components);
+        }
+    }
     [[nodiscard]] bool has(FieldId id) const;
 
     /// What a program that writes such records captures: out_ and the name, in the records' order.

@@ -24,7 +24,8 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
 }
 
 /// The jobs of crosscheck/, each knowing those before it.
-const std::vector<std::string> jobs{"files", "scene", "text", "judge", "report", "record", "command", "package", "cli"};
+const std::vector<std::string> jobs{"files",  "scene",      "text",    "judge",   "report",
+                                    "record", "check_file", "command", "package", "cli"};
 
 /// The place of a file's job among them; nothing of files that are no job's.
 std::optional<std::size_t> job_of(const std::string& file) {
@@ -35,7 +36,7 @@ std::optional<std::size_t> job_of(const std::string& file) {
 }
 
 /// What every system goes through: it knows none.
-const std::set<std::string> machinery_jobs{"files", "text", "judge", "report", "record"};
+const std::set<std::string> machinery_jobs{"files", "text", "judge", "report", "record", "check_file"};
 
 /// Whether a file does what verbs do on any system.
 bool runs_any_system(const std::string& file) {

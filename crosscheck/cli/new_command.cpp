@@ -4,9 +4,11 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "crosscheck/check_file/new_file.hpp"
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/output_files.hpp"
@@ -142,6 +144,32 @@ int make(const NewRequest& options) {
     return status_agree;
 }
 
+struct NewCheckRequest {
+    std::vector<std::string> shaders;
+    fs::path file; ///< empty: beside the first shader, by its name
+};
+
+int make_check(const NewCheckRequest& options) {
+    const std::vector<fs::path> shaders(options.shaders.begin(), options.shaders.end());
+    const fs::path file = options.file.empty() ? fs::path(shaders.front()).replace_extension(".json") : options.file;
+    std::error_code ignored;
+    if (fs::exists(file, ignored))
+        throw Error(fmt::format("new check: {} exists; expected a file that does not exist yet, by --output FILE",
+                                plain_line(file.string())));
+    OutputFiles files;
+    files.expect(file);
+    files.write(file, check_file::new_file(shaders));
+    files.commit();
+    const std::string shown = shell_path(file);
+    fmt::print(
+        "{0}: a check of these shaders against their own text. Its list \"todo\" has what is guessed. Run it:\n\n"
+        "    lockstep check {0}\n\n"
+        "A folder \"reference\" in it, with shaders of the same names, is what they are held against then: "
+        "docs/check_files.md.\n",
+        shown);
+    return status_agree;
+}
+
 } // namespace
 
 Verb new_command() {
@@ -151,9 +179,16 @@ Verb new_command() {
     system.add(path_option("-o,--output", "DIR", options->folder, "the folder to make; without it NAME"));
     system.footer = "Exit status: 0 written, 2 could not be.\nExample: lockstep new system sparks";
     system.run = [options](const Call&) { return make(*options); };
-    Verb verb{"new", "create a project skeleton"};
-    verb.verbs = {system};
-    verb.footer = "Example: lockstep new system sparks";
+    auto asked = std::make_shared<NewCheckRequest>();
+    Verb check{"check", "write a check file for compute shaders, from what they declare"};
+    check.add(required(texts_option("shader", "SHADER", asked->shaders, "NAME.comp, in the order in which they run")));
+    check.add(
+        path_option("-o,--output", "FILE", asked->file, "the file to write; without it NAME.json beside the first"));
+    check.footer = "Exit status: 0 written, 2 could not be.\nExample: lockstep new check flock/boids.comp";
+    check.run = [asked](const Call&) { return make_check(*asked); };
+    Verb verb{"new", "create a project skeleton, or a check file"};
+    verb.verbs = {system, check};
+    verb.footer = "Example: lockstep new check flock/boids.comp";
     return verb;
 }
 

@@ -12,6 +12,7 @@
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/judge/registered_system.hpp"
 #include "crosscheck/scene/run_text.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "gpu/collision/collision_shaders.hpp"
@@ -99,7 +100,8 @@ void check_scene_or_trace(const Call& call, const RunOptions& options, const std
         throw Error(fmt::format("{}: a scene or --trace FILE is needed", call.verb.name));
     if (trace.empty())
         return;
-    if (!options.scene.empty())
+    if (const RegisteredSystem* system = system_of(options);
+        !options.scene.empty() && (system == nullptr || system->folders == nullptr))
         throw Error(fmt::format("{}: a scene does not go with --trace, which brings its own", call.verb.name));
     for (const char* name : {"--particles", "--preset", "--set", "--gl", "--shaders", "--allow-unused", "--images",
                              "--render", "--no-render", "--werror-shaders", "--cover-at-least"})
@@ -183,11 +185,11 @@ std::string command_line(const std::string& verb, const RunOptions& options, con
         line += fmt::format(" --threads {}", options.threads);
     if (options.gl != "auto")
         line += fmt::format(" --gl {}", options.gl);
-    if (!options.shaders.empty())
+    if (!options.shaders.empty() && !options.shaders_by_scene)
         line += fmt::format(" --shaders {}", shell_path(options.shaders));
-    if (options.allow_unused)
+    if (options.allow_unused && !options.shaders_by_scene)
         line += " --allow-unused";
-    if (!options.reference.empty())
+    if (!options.reference.empty() && !options.reference_by_scene)
         line += fmt::format(" --reference {}", shell_path(options.reference));
     return line + werror_option_text();
 }

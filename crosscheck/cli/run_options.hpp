@@ -38,9 +38,10 @@ struct RunOptions {
     int frames = 60;
     int threads = 0; ///< 0: one a core
     std::string gl = "auto";
-    std::filesystem::path shaders;   ///< looked into first; empty: only the shipped shaders
-    bool allow_unused = false;       ///< shaders may lie there that do not run
-    std::filesystem::path reference; ///< shaders that take the place of twins; empty: none do
+    std::filesystem::path shaders;                             ///< looked into first; empty: only the shipped shaders
+    bool allow_unused = false;                                 ///< shaders may lie there that do not run
+    std::filesystem::path reference;                           ///< shaders that take the place of twins; empty: none do
+    bool shaders_by_scene = false, reference_by_scene = false; ///< the scene names them, not the command line
     SceneDocument document = {};
 };
 

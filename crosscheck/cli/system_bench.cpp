@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -174,17 +175,26 @@ void print_floor(const SystemScene& scene, const RunOptions& run, std::size_t co
 
 } // namespace
 
-int bench_system(const RegisteredSystem& system, const RunOptions& run, const SystemBench& asked) {
+int bench_system(const RegisteredSystem& system, const RunOptions& given, const SystemBench& asked) {
+    const RunOptions run = with_folders(system, given);
     const Gl gl = open_gl(run);
     fmt::print("{}\n{} after {}, median ms; GL: the shaders alone, to glFinish\n\n{:>9} {:<18} {:>10} {:>10} "
                "{:>10} {:>8} {:>10} {:>9}  {:<16} {}\n",
                gl.name(), counted(static_cast<std::size_t>(run.frames), "frame"), asked.warm_up, "items", "pass", "GL",
                "GL timer", "reference", "GL/ref", "check", "check/GL", "hash", "verdict");
     int status = status_agree;
-    for (const std::size_t count : asked.counts) {
+    // A check file has its counts in its state.
+    std::vector<std::optional<std::size_t>> counts(asked.counts.begin(), asked.counts.end());
+    if (system.folders != nullptr)
+        counts = {std::nullopt};
+    for (const std::optional<std::size_t>& given_count : counts) {
         RunOptions one = run;
-        one.particles = count;
-        const ReadScene read = read_scene(system, one);
+        one.particles = given_count;
+        ReadScene read = read_scene(system, one);
+        const std::size_t count = given_count.value_or(read.scene.system.start.extent(0).count());
+        if (!one.reference.empty())
+            static_cast<void>(take_references({read.scene.system, read.scene.passes, read.scene.arithmetic},
+                                              references_of(read.scene, one), one.reference, one.shaders));
         const System& twins = read.scene.system;
         static_cast<void>(shaders_of(read.scene, one));
         GlSystemSide side = side_of(gl, read.scene, one);

@@ -42,7 +42,8 @@ ColorImage render_gpu(const SystemScene& scene, const RunOptions& run, const Sys
 
 } // namespace
 
-int render_system(const RegisteredSystem& system, const RunOptions& run, const SystemRender& asked) {
+int render_system(const RegisteredSystem& system, const RunOptions& given, const SystemRender& asked) {
+    const RunOptions run = with_folders(system, given);
     const ReadScene read = read_scene(system, run);
     if (!read.scene.has_pictures())
         throw Error(fmt::format("render: scenes of system {} have no pictures", system.name));

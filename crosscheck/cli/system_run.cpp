@@ -19,6 +19,20 @@
 
 namespace lockstep {
 
+RunOptions with_folders(const RegisteredSystem& system, RunOptions run) {
+    if (system.folders == nullptr || run.scene.empty())
+        return run;
+    const SceneFolders named = system.folders(JsonValue(run.document.of(run.scene), run.scene.string()), run.scene);
+    run.shaders_by_scene = run.shaders.empty();
+    run.reference_by_scene = run.reference.empty();
+    run.allow_unused = run.allow_unused || run.shaders_by_scene;
+    if (run.shaders_by_scene)
+        run.shaders = named.shaders;
+    if (run.reference_by_scene)
+        run.reference = named.reference;
+    return run;
+}
+
 ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run) {
     start_threads(run.threads);
     const nlohmann::json& document = run.document.of(run.scene);
@@ -65,20 +79,15 @@ ReadScene recorded_scene(const RegisteredSystem& system, const nlohmann::json& s
 namespace {
 
 ReadScene read_recorded(const RegisteredSystem& system, const SystemRecording& recording) {
+    if (system.folders != nullptr)
+        throw Error(fmt::format("{}: is recorded of a check file, which holds its reference; expected that file beside "
+                                "--trace: lockstep check FILE.json --trace {}",
+                                recording.file(), shell_path(recording.file())));
     if (recording.info().scene.is_null())
         throw Error(fmt::format("{}: {}: missing; right is the text of a scene file", recording.file(),
                                 "parameters/lockstep/scene"));
     return recorded_scene(system, recording.info().scene, recording.info().options, recording.info().name,
                           recording.file());
-}
-
-/// The shaders of run.reference. Throws Error where none of them is of a pass of the scene, or one is no reference.
-ShaderUse references_of(const SystemScene& scene, const RunOptions& run) {
-    RunOptions of_references = run;
-    of_references.shaders = run.reference;
-    ShaderUse use = shaders_of(scene, of_references);
-    check_references(use, run.reference);
-    return use;
 }
 
 /// What draws a frame's picture, with all its stages.
@@ -96,7 +105,7 @@ SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, 
                          DrawnStages drawn)
     : run_(run), drawn_(drawn), trace_(std::move(trace)),
       recording_(trace_.empty() ? nullptr : std::make_unique<SystemRecording>(trace_, std::string(system.name))),
-      read_(recording_ ? read_recorded(system, *recording_) : read_scene(system, run)) {
+      read_(recording_ && run.scene.empty() ? read_recorded(system, *recording_) : read_scene(system, run)) {
     if (recording_)
         start_threads(run.threads);
     else
@@ -135,7 +144,7 @@ DrawnSystem SystemInput::drawn(const SystemState& state, int frame) const {
 
 void SystemInput::protect(OutputFiles& files) const {
     files.protect(trace_);
-    if (!is_recorded())
+    if (!run_.scene.empty())
         read_.protect(run_, files);
 }
 
@@ -167,8 +176,18 @@ std::vector<std::string> SystemInput::left_open(const Profile& profile) const {
 }
 
 std::string SystemInput::command(const std::string& verb, const std::string& words) const {
-    return recording_ ? fmt::format("lockstep {} --trace {} {}", verb, shell_path(trace_), words)
-                      : command_line(verb, run_, words);
+    if (!recording_)
+        return command_line(verb, run_, words);
+    return fmt::format("lockstep {} {}--trace {} {}", verb, run_.scene.empty() ? "" : shell_path(run_.scene) + " ",
+                       shell_path(trace_), words);
+}
+
+ShaderUse references_of(const SystemScene& scene, const RunOptions& run) {
+    RunOptions of_references = run;
+    of_references.shaders = run.reference;
+    ShaderUse use = shaders_of(scene, of_references);
+    check_references(use, run.reference);
+    return use;
 }
 
 ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run, DrawnStages drawn) {

@@ -31,6 +31,9 @@ struct ReadScene {
     void protect(const RunOptions& run, OutputFiles& files) const;
 };
 
+/// The same with the folders that the scene names where the command line names none; other shaders may lie there.
+RunOptions with_folders(const RegisteredSystem& system, RunOptions run);
+
 /// Reads the scene and sets the thread count.
 ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run);
 
@@ -43,6 +46,9 @@ enum class DrawnStages : std::uint8_t { none, vertex, all };
 
 /// Whose shaders will run. Throws Error like check_shader_use.
 ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run, DrawnStages drawn = DrawnStages::all);
+
+/// The shaders of run.reference. Throws Error where none of them is of a pass of the scene, or one is no reference.
+ShaderUse references_of(const SystemScene& scene, const RunOptions& run);
 
 /// Throws Error where the GL that was asked for is not there.
 Gl open_gl(const RunOptions& run);

@@ -211,7 +211,8 @@ std::span<const std::string_view> system_check_options() {
     return options;
 }
 
-int check_system(const RegisteredSystem& system, RunOptions run, const SystemCheck& asked) {
+int check_system(const RegisteredSystem& system, const RunOptions& given, const SystemCheck& asked) {
+    RunOptions run = with_folders(system, given);
     if (asked.rules.cover_at_least > 0.0 && run.shaders.empty())
         throw Error("check: --cover-at-least goes with shaders of one's own; expected --shaders DIR");
     SystemInput input(system, run, asked.trace, asked.render ? DrawnStages::vertex : DrawnStages::none);
@@ -327,8 +328,9 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
                : status_differ;
 }
 
-int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
+int explain_system(const RegisteredSystem& system, const RunOptions& given, const SystemItem& item,
                    const std::filesystem::path& trace) {
+    const RunOptions run = with_folders(system, given);
     SystemInput input(system, run, trace, DrawnStages::vertex);
     if (is_drawn(input, item.pass)) {
         fmt::print("{}", explain_drawn(input, run, item));
@@ -340,20 +342,24 @@ int explain_system(const RegisteredSystem& system, const RunOptions& run, const 
     return status_agree;
 }
 
-int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile,
+int hash_system(const RegisteredSystem& system, const RunOptions& given, const std::string& profile,
                 const HashedFrames& frames) {
-    print_hashes(read_scene(system, run).scene.system, profile, frames);
+    const RunOptions run = with_folders(system, given);
+    const SystemInput input(system, run, {});
+    print_hashes(input.system(), profile, frames);
     return status_agree;
 }
 
-int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& run, const HashedFrames& frames) {
+int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& given, const HashedFrames& frames) {
+    const RunOptions run = with_folders(system, given);
     SystemInput input(system, run, {});
     print_gpu_hashes(input.system(), input.open(), frames);
     return status_agree;
 }
 
-int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
+int cut_system(const RegisteredSystem& system, const RunOptions& given, const SystemItem& item,
                const std::filesystem::path& trace, const std::filesystem::path& output) {
+    const RunOptions run = with_folders(system, given);
     SystemInput input(system, run, trace);
     static_cast<void>(place_of(item, input.system()));
     OutputFiles files;
@@ -375,8 +381,9 @@ std::string heading_of(const ReadScene& read, const std::string& gl, const Profi
 
 } // namespace
 
-int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal legal, DebugSetup setup,
+int debug_system(const RegisteredSystem& system, const RunOptions& given, Legal legal, DebugSetup setup,
                  const std::filesystem::path& trace) {
+    const RunOptions run = with_folders(system, given);
     if (!trace.empty()) {
         const auto input = std::make_shared<SystemInput>(system, run, trace);
         SystemSide& side = input->open();
@@ -398,7 +405,11 @@ int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal le
         RunOptions changed = run;
         changed.set.insert(changed.set.end(), changes.begin(), changes.end());
         const auto read = std::make_shared<ReadScene>(read_scene(system, changed));
-        show_texts({read->scene.system, read->scene.passes, read->scene.arithmetic}, changed.shaders);
+        const ShadedSystem shaded{read->scene.system, read->scene.passes, read->scene.arithmetic};
+        if (!changed.reference.empty())
+            static_cast<void>(
+                take_references(shaded, references_of(read->scene, changed), changed.reference, changed.shaders));
+        show_texts(shaded, changed.shaders);
         const std::shared_ptr<const System> twins(read, &read->scene.system);
         auto side = std::make_shared<GlSystemSide>(gl, *twins, read->scene.passes, changed.shaders.string(),
                                                    read->scene.arithmetic);
@@ -408,8 +419,9 @@ int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal le
     return debug_run(std::move(setup));
 }
 
-int record_system(const RegisteredSystem& system, const RunOptions& run, const std::filesystem::path& output,
+int record_system(const RegisteredSystem& system, const RunOptions& given, const std::filesystem::path& output,
                   int deflate) {
+    const RunOptions run = with_folders(system, given);
     SystemInput input(system, run, {});
     OutputFiles files;
     input.protect(files);

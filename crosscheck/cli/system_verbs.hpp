@@ -50,7 +50,7 @@ struct SystemBench {
 std::span<const std::string_view> system_check_options();
 
 // The verbs for a scene of a registered system. Each returns the exit status, or throws Error.
-int check_system(const RegisteredSystem& system, RunOptions run, const SystemCheck& asked);
+int check_system(const RegisteredSystem& system, const RunOptions& run, const SystemCheck& asked);
 // `trace`: a recording instead of run.scene; may be empty.
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
                    const std::filesystem::path& trace);

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -54,6 +55,11 @@ struct SystemScene {
     [[nodiscard]] bool has_pictures() const { return picture || image; }
 };
 
+/// Folders that a scene names: of its shaders, and of those that are their reference.
+struct SceneFolders {
+    std::filesystem::path shaders, reference;
+};
+
 /// A system that scene files name: `"system": "dust"`. The verbs know no other thing of it.
 struct RegisteredSystem {
     std::string_view name;    ///< its schema's, and its folders'
@@ -61,6 +67,9 @@ struct RegisteredSystem {
     /// Reads a scene: all keys of the file but "system" and "description", `options` on top. `name`: the scene's.
     /// Throws Error as load_scene does.
     SystemScene (*load)(const JsonValue& scene, const std::string& name, const SceneOptions& options);
+    /// Those that a scene names, or means; `file`: where it lies. Throws Error as load does. Null: scenes name none, their
+    /// shaders are shipped and their reference is twins.
+    SceneFolders (*folders)(const JsonValue& scene, const std::filesystem::path& file) = nullptr;
 };
 
 } // namespace lockstep

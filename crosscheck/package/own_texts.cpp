@@ -6,10 +6,9 @@
 #include <utility>
 
 #include "crosscheck/package/driver_notes.hpp"
+#include "crosscheck/text/text_pass.hpp"
 #include "gpu/shader_use.hpp"
 #include "lockstep/shader_text.hpp"
-#include "reference/system/item_twin.hpp"
-#include "reference/system/item_words.hpp"
 #include "reference/system/pass_by_driver.hpp"
 
 namespace lockstep {
@@ -28,18 +27,6 @@ class PassBeside final : public PassByProfile {
     const ItemPass& pass_;
 };
 
-/// Leaves an item as it was: what a pass is before a text makes it.
-struct Unchanged {
-    std::uint8_t resource;
-
-    template <class R> ItemWords<R> operator()(R& /*r*/, const PassInput& in, std::size_t item) const {
-        ItemWords<R> words;
-        for (const std::uint32_t word : item_words(in.before[resource], item))
-            words.add(word);
-        return words;
-    }
-};
-
 } // namespace
 
 System beside(const System& system) {
@@ -50,9 +37,9 @@ System beside(const System& system) {
 }
 
 void SystemTexts::take_references(const std::filesystem::path& folder,
-                                  const std::optional<std::filesystem::path>& gpu) {
+                                  const std::optional<std::filesystem::path>& gpu, UnusedShaders unused) {
     const ShaderUse use = shader_use(of_.system.schema.system, stages_of(of_.passes, of_.arithmetic), folder);
-    check_shader_use(use, folder);
+    check_shader_use(use, folder, unused == UnusedShaders::allowed);
     check_references(use, folder);
     references_ = lockstep::take_references(of_, use, folder, gpu);
 }
@@ -80,15 +67,12 @@ TextNotes SystemTexts::notes(SystemSide& side, const KnownOperations& known, Che
 
 std::vector<std::unique_ptr<ItemPass>> passes_by_text(const Schema& schema, const std::vector<GlPass>& passes,
                                                       const std::string& folder) {
-    System system{.name = schema.system, .schema = schema, .passes = {}, .mistakes = {}, .start = {}, .settings = {}};
-    for (const GlPass& pass : passes)
-        system.passes.push_back(
-            item_pass({.name = pass.name,
-                       .resource = pass.resource,
-                       .stage = pass.stage == Stage::compute ? PassStage::compute : PassStage::vertex,
-                       .runs = pass.runs,
-                       .continues = pass.continues},
-                      Unchanged{pass.resource}));
+    System system{.name = schema.system,
+                  .schema = schema,
+                  .passes = passes_without_twins(passes),
+                  .mistakes = {},
+                  .start = {},
+                  .settings = {}};
     SystemTexts(system, passes).take_references(folder, std::nullopt);
     return std::move(system.passes);
 }

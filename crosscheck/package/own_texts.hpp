@@ -26,7 +26,8 @@ class SystemTexts {
 
     /// The shaders of `folder` become the references of their passes. `gpu`: where the GPU's are, if that is known.
     /// Throws Error where none is a pass's, or one is not interpreted.
-    void take_references(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& gpu);
+    void take_references(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& gpu,
+                         UnusedShaders unused = UnusedShaders::refused);
     /// What the texts in `folder`, which GL runs, leave open is legal. `reference`: where the reference's texts are.
     void take_shaders(const std::filesystem::path& folder, const std::filesystem::path& reference);
 

@@ -51,20 +51,17 @@ struct Reading {
     bool is_es = false, is_old = false; ///< old: written before `in` and `out`
 };
 
-/// Whether a text without a version says what went with GLSL 1.30.
-bool looks_old(const std::string& text) {
-    return says(text, "gl_FragColor") || says(text, "varying") || says(text, "attribute");
-}
-
 /// Its own dialect first. What was written for versions without SPIR-V means the same in the first that has it, unless
 /// it asks which one compiles it.
 std::vector<Reading> readings_of(const std::string& text) {
-    constexpr int desktop = 460, es = 310, first_with_in = 130;
+    constexpr int desktop = 460, es = 310, first_with_in = 130, first_without_old = 420;
     const GlslVersion said = version_in(text);
     const bool is_es = said.profile == "es";
     const int version = said.number == 0 ? desktop : said.number; // of a text that does not say
     const int newer = is_es ? es : desktop;
-    const bool is_old = said.number == 0 ? looks_old(text) : said.number < first_with_in;
+    // From 1.30 to 4.10 compatibility has both.
+    const bool may_be_old = said.number == 0 || (!is_es && said.number < first_without_old);
+    const bool is_old = (said.number != 0 && said.number < first_with_in) || (may_be_old && says_old_glsl(text));
     std::vector<Reading> all;
     for (const glslang::EShClient client : {glslang::EShClientOpenGL, glslang::EShClientVulkan}) {
         all.push_back({client, 0, is_es});

@@ -69,6 +69,22 @@ constexpr std::array<Variable, 6> of_both{{{"gl_ModelViewProjectionMatrix", "uni
 
 } // namespace
 
+bool says_old_glsl(const std::string& text) {
+    std::set<std::string_view> old{"varying", "attribute", "ftransform"};
+    for (const Renamed& one : sampling)
+        old.insert(one.old);
+    for (const Variable& one : of_vertex)
+        old.insert(one.old);
+    for (const Variable& one : of_fragment)
+        old.insert(one.old);
+    for (const Variable& one : of_both)
+        old.insert(one.old);
+    for (ShaderWords words(text); words.next();)
+        if (old.contains(words.token()))
+            return true;
+    return false;
+}
+
 std::string words_of_old_glsl(const std::string& text, Stage stage) {
     std::set<std::string, std::less<>> said;
     for (ShaderWords words(text); words.next();)

@@ -10,4 +10,7 @@ namespace lockstep {
 /// on. Lines of its own, before the text. `text`: which of them it uses.
 std::string words_of_old_glsl(const std::string& text, Stage stage);
 
+/// Whether a text has such words.
+bool says_old_glsl(const std::string& text);
+
 } // namespace lockstep

@@ -30,13 +30,15 @@ std::shared_ptr<const ShaderSource> source_of(const GlPass& pass, const ShaderFo
 std::vector<std::uint32_t> records_of(const View& view, std::span<const Component> record) {
     std::vector<std::uint32_t> words(view.count() * record.size());
     for (std::size_t k = 0; k < record.size(); ++k)
-        for (std::size_t item = 0; item < view.count(); ++item)
+        for (std::size_t item = 0; item < view.count() && record[k] != no_component; ++item)
             words[item * record.size() + k] = view.value(record[k].field, item, record[k].component).bits;
     return words;
 }
 
 void set_items(const WritableView& view, std::span<const Component> record, std::span<const std::uint32_t> words) {
     for (std::size_t k = 0; k < record.size(); ++k) {
+        if (record[k] == no_component)
+            continue;
         const auto components = static_cast<std::size_t>(view.fields()[record[k].field].components);
         std::byte* const column = view.columns[record[k].field];
         for (std::size_t item = 0; item < view.count(); ++item)
@@ -68,6 +70,8 @@ std::vector<Component> texel_record(const Resource& image) {
 std::vector<std::uint32_t> words_of(const UniformValue& value) {
     return std::visit(
         []<class T>(const T& v) {
+            if constexpr (std::is_same_v<T, bool>)
+                return std::vector<std::uint32_t>{v ? 1U : 0U};
             std::vector<std::uint32_t> words(sizeof v / sizeof(std::uint32_t));
             std::memcpy(words.data(), &v, sizeof v);
             return words;
@@ -89,14 +93,33 @@ std::vector<std::uint32_t> words_given(const Uniforms& given, const text::PlainU
     return words;
 }
 
+namespace {
+
+/// A uniform block whose members have values by their names. One that has none keeps 0, as GL does.
+std::vector<std::uint32_t> words_of_members(const text::Block& block, const Uniforms& given) {
+    std::vector<std::uint32_t> words(block.words(0));
+    for (const text::Block::Member& member : block.members) {
+        const std::vector<std::uint32_t> values =
+            words_given(given, {.name = member.name, .cells = static_cast<std::uint32_t>(member.leaves.size())});
+        for (std::size_t k = 0; k < std::min(values.size(), member.leaves.size()); ++k)
+            words[member.leaves[k].word] = values[k];
+    }
+    return words;
+}
+
+} // namespace
+
 PassText::PassText(const Schema& schema, GlPass pass, std::vector<std::uint8_t> written, const ShaderFolders& folders,
                    ArithmeticSwitch arithmetic)
     : schema_(schema), pass_(std::move(pass)), written_(std::move(written)), arithmetic_(arithmetic),
       source_(source_of(pass_, folders, arithmetic)), program_(program_of(source_)) {
     if (source_->bindings != nullptr)
         refuse(fmt::format("a shader with {} beside it is not interpreted", bindings_file));
-    for (const text::Block& block : program_.blocks)
-        blocks_.push_back(block_named(block.name));
+    for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
+        const text::Block& block = program_.blocks[b];
+        const bool has_members = std::ranges::find(pass_.uniform_blocks, block.name) != pass_.uniform_blocks.end();
+        blocks_.push_back(has_members ? Bound{.kind = Bound::Kind::uniforms, .number = b} : block_named(block.name));
+    }
     for (const text::ImageUniform& image : program_.images)
         images_.push_back(image_named(image.name));
     if (is_vertex())
@@ -186,15 +209,24 @@ bool PassText::writes(std::uint8_t resource) const {
 }
 
 PassText::Bound PassText::block_named(const std::string& name) const {
+    const auto named = pass_.names.find(name);
     for (const SystemStorage& storage : storages_of(schema_)) {
         Bound bound{.kind = Bound::Kind::after, .resource = storage.layout.resource};
-        if (storage.block.empty() && name == shader_name(storage.layout.about().name) + "Before")
+        if (named != pass_.names.end()) {
+            if (bound.resource != named->second.resource)
+                continue;
+            if (storage.block.empty() && named->second.kind == GlName::Kind::before)
+                bound.kind = Bound::Kind::before;
+        } else if (storage.block.empty() && name == shader_name(storage.layout.about().name) + "Before") {
             bound.kind = Bound::Kind::before;
-        else if (name != block_of(schema_, storage, true))
+        } else if (name != block_of(schema_, storage, true)) {
             continue;
-        for (const RecordLayout::Member& member : storage.layout.members)
+        }
+        bound.record.assign(storage.layout.words(), no_component);
+        storage.layout.for_each_member([&](const RecordLayout::Member& member, std::size_t first) {
             for (int c = 0; c < storage.layout.field(member).components; ++c)
-                bound.record.push_back({member.field, c});
+                bound.record[first + static_cast<std::size_t>(c)] = {member.field, c};
+        });
         return bound;
     }
     if (!pass_.data.contains(name))
@@ -203,6 +235,10 @@ PassText::Bound PassText::block_named(const std::string& name) const {
 }
 
 PassText::Bound PassText::image_named(const std::string& name) const {
+    if (const auto named = pass_.names.find(name); named != pass_.names.end())
+        return {.kind = named->second.kind == GlName::Kind::before ? Bound::Kind::before : Bound::Kind::after,
+                .resource = named->second.resource,
+                .record = texel_record(schema_.resources[named->second.resource])};
     for (std::uint8_t r = 0; r < schema_.resources.size(); ++r) {
         const std::string ours = "u_" + shader_name(schema_.resources[r].name);
         if (schema_.resources[r].dimensions > 1 && (name == ours + "Before" || name == ours + "After"))
@@ -222,6 +258,8 @@ std::array<std::uint32_t, 3> PassText::groups(const PassInput& in) const {
     const auto over = [](std::size_t items, std::size_t of) {
         return static_cast<std::uint32_t>((items + of - 1) / of);
     };
+    if (pass_.groups)
+        return *pass_.groups;
     if (pass_.indirect) {
         std::array<std::uint32_t, 3> counts{};
         for (int c = 0; c < 3; ++c)
@@ -236,9 +274,14 @@ std::array<std::uint32_t, 3> PassText::groups(const PassInput& in) const {
     return {over(items(in), program_.invocations()), 1, 1};
 }
 
+Uniforms PassText::given(const PassInput& in) const {
+    Uniforms all = pass_.uniforms ? pass_.uniforms(in.frame) : Uniforms{};
+    all["u_ItemCount"] = static_cast<unsigned>(in.before[pass_.resource].count());
+    return all;
+}
+
 std::vector<std::vector<std::uint32_t>> PassText::uniforms(const PassInput& in) const {
-    Uniforms given = pass_.uniforms ? pass_.uniforms(in.frame) : Uniforms{};
-    given["u_ItemCount"] = static_cast<unsigned>(in.before[pass_.resource].count());
+    const Uniforms given = this->given(in);
     std::vector<std::vector<std::uint32_t>> all;
     for (const text::PlainUniform& uniform : program_.uniforms) {
         all.push_back(words_given(given, uniform));
@@ -258,7 +301,9 @@ PassText::Input PassText::bind(const PassInput& in, const Profile& profile) cons
     std::vector<std::vector<std::uint32_t>>& words = input.words;
     for (const auto* const all : {&blocks_, &images_})
         for (const Bound& bound : *all)
-            if (bound.kind == Kind::data) {
+            if (bound.kind == Kind::uniforms) {
+                words.push_back(words_of_members(program_.blocks[bound.number], given(in)));
+            } else if (bound.kind == Kind::data) {
                 std::vector<float> floats = pass_.data.at(bound.name)(in.frame);
                 floats.resize(std::max<std::size_t>(floats.size(), 1));
                 words.emplace_back(floats.size());

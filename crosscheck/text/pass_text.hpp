@@ -71,7 +71,7 @@ class PassText {
     /// Where the words of a resource that is written lie in Input::words: a block for each part of its items, or an
     /// image.
     [[nodiscard]] std::vector<std::size_t> words_of_resource(std::uint8_t resource) const;
-    /// The components of an item in those words, in their order.
+    /// The components of an item in those words, in their order; no_component where a word is none.
     [[nodiscard]] std::span<const Component> record(std::size_t words) const;
     /// Which of the components of an item of a vertex pass an output's cell is.
     [[nodiscard]] std::optional<std::size_t> captured_component(std::uint64_t cell) const;
@@ -89,11 +89,12 @@ class PassText {
 
   private:
     struct Bound {
-        enum class Kind : std::uint8_t { before, after, data };
+        enum class Kind : std::uint8_t { before, after, data, uniforms };
         Kind kind = Kind::data;
         std::uint8_t resource = 0;
-        std::vector<Component> record = {}; ///< of a block: the words of an item
+        std::vector<Component> record = {}; ///< of a block: the words of an item; a word between fields is no_component
         std::string name = {};              ///< of data
+        std::size_t number = 0;             ///< of uniforms: the block's
     };
     [[nodiscard]] Bound block_named(const std::string& name) const;
     [[nodiscard]] Bound image_named(const std::string& name) const;
@@ -106,6 +107,7 @@ class PassText {
     void capture();
     [[nodiscard]] text::StageRun vertices(const PassInput& in) const;
     [[nodiscard]] std::array<std::uint32_t, 3> groups(const PassInput& in) const;
+    [[nodiscard]] Uniforms given(const PassInput& in) const;
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> uniforms(const PassInput& in) const;
     [[nodiscard]] bool writes(std::uint8_t resource) const;
     [[noreturn]] void refuse(std::string_view what) const;

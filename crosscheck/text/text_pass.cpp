@@ -13,6 +13,7 @@
 #include "reference/model/error.hpp"
 #include "reference/parallel_blocks.hpp"
 #include "reference/system/item_twin.hpp"
+#include "reference/system/item_words.hpp"
 #include "reference/system/pass_by_driver.hpp"
 #include "reference/text/outcomes.hpp"
 
@@ -57,7 +58,8 @@ std::vector<std::uint32_t> TextDispatch::words(const View& before, std::uint8_t 
     for (const std::size_t from : text_.words_of_resource(resource)) {
         const std::span<const Component> record = text_.record(from);
         for (std::size_t k = 0; k < record.size(); ++k)
-            all[place_of(before.about(), record[k])] = written_[from][item * record.size() + k];
+            if (record[k] != no_component)
+                all[place_of(before.about(), record[k])] = written_[from][item * record.size() + k];
     }
     return all;
 }
@@ -73,6 +75,8 @@ void TextDispatch::write(const View& before, std::uint8_t resource, std::size_t 
     for (const std::size_t from : text_.words_of_resource(resource)) {
         const std::span<const Component> record = text_.record(from);
         for (std::size_t k = 0; k < record.size(); ++k) {
+            if (record[k] == no_component)
+                continue;
             const std::size_t place = place_of(before.about(), record[k]);
             is_written[place] = true;
             for (std::size_t item = first; item < last; ++item)
@@ -141,7 +145,7 @@ std::optional<Component> TextDispatch::component_at(std::uint8_t resource, std::
             place.number != (is_block ? from : from - blocks))
             continue;
         const std::uint64_t at = place.word - item * record.size(); // far beyond, where it is before
-        if (at < record.size())
+        if (at < record.size() && record[at] != no_component)
             return record[at];
     }
     return {};
@@ -281,6 +285,35 @@ void take_text(std::span<std::unique_ptr<ItemPass>> passes, const std::shared_pt
     const auto last = std::make_shared<LastDispatch>();
     for (std::unique_ptr<ItemPass>& pass : passes)
         pass = std::make_unique<TextPass>(std::move(pass), text, last, nullptr);
+}
+
+namespace {
+
+/// Leaves an item as it was.
+struct Unchanged {
+    std::uint8_t resource;
+
+    template <class R> ItemWords<R> operator()(R& /*r*/, const PassInput& in, std::size_t item) const {
+        ItemWords<R> words;
+        for (const std::uint32_t word : item_words(in.before[resource], item))
+            if (words.size() < ItemWords<R>::most)
+                words.add(word);
+        return words;
+    }
+};
+
+} // namespace
+
+std::vector<std::unique_ptr<ItemPass>> passes_without_twins(std::span<const GlPass> passes) {
+    std::vector<std::unique_ptr<ItemPass>> made;
+    for (const GlPass& pass : passes)
+        made.push_back(item_pass({.name = pass.name,
+                                  .resource = pass.resource,
+                                  .stage = pass.stage == Stage::compute ? PassStage::compute : PassStage::vertex,
+                                  .runs = pass.runs,
+                                  .continues = pass.continues},
+                                 Unchanged{pass.resource}));
+    return made;
 }
 
 namespace {

@@ -62,6 +62,9 @@ class TextDispatch {
 /// resources, stage, when they run. Those that continue the first take what its dispatch wrote.
 void take_text(std::span<std::unique_ptr<ItemPass>> passes, const std::shared_ptr<const PassText>& text);
 
+/// Passes that leave every item as it was: what they are before a text makes them.
+std::vector<std::unique_ptr<ItemPass>> passes_without_twins(std::span<const GlPass> passes);
+
 /// What the GPU's shader says of a pass, by its own text; of one that continues another where the text does not read
 /// what that wrote.
 std::shared_ptr<const OwnText> own_text(std::shared_ptr<const PassText> text, std::uint8_t resource);

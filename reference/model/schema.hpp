@@ -2,6 +2,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,8 @@ struct Field {
     /// The storage block that compute shaders find it in, and change in place; the fields of one block are a record.
     /// Empty: the resource has two copies, one to read and one to write.
     std::string block = {};
+    /// The word of a record in a storage block at which it lies; nothing: behind the field before.
+    std::optional<std::uint32_t> at = {};
 };
 
 /// A buffer of items, one after the other, or an image of texels. Storage is a struct of arrays: all values of a field
@@ -42,6 +45,8 @@ struct Resource {
     int dimensions = 1;      ///< 1: a buffer; 2 or 3: an image, which has one field
     std::string format = {}; ///< of an image, as GL names it: "rgba32f"
     bool counted = false;    ///< the number of items may change from frame to frame
+    /// Of a buffer, words from one record to the next in storage blocks; nothing: as many as its fields have.
+    std::optional<std::uint32_t> record_words = {};
 };
 
 /// A field by its place in a schema.

@@ -59,7 +59,11 @@ bool has_nan(const View& state, std::size_t item);
 struct Component {
     std::uint8_t field = 0;
     int component = 0;
+    bool operator==(const Component&) const = default;
 };
+
+/// In the place of one: a word between the fields of a record.
+inline constexpr Component no_component{255, -1};
 
 /// All of an item's, in the order of its fields.
 std::vector<Component> components(const Resource& resource);

@@ -71,6 +71,9 @@ Decoder::Decoder(const Module& module) : module_(module), cell_(module.ids.size(
     p_.are_quads = module.are_quads;
     p_.are_square_quads = module.are_square_quads;
     p_.line_name = module.line_name;
+    if (p_.are_square_quads && (p_.group[0] % 2 != 0 || p_.group[1] % 2 != 0))
+        throw Error(fmt::format("shader {}: a group of {} x {} invocations has no quads; expected even numbers",
+                                module.line_name(1), p_.group[0], p_.group[1]));
     // Cells that are zeroed for each invocation come first, of these the outputs.
     outputs();
     for (const Variable& v : module.variables)
@@ -232,6 +235,28 @@ void Decoder::outside_variables() {
     }
 }
 
+namespace {
+
+/// Of a scalar, vector or matrix, or an array of such.
+BasicType basic_type(const Module& module, std::uint32_t id) {
+    using enum Type::Kind;
+    const Type& scalar = module.scalar_of(id);
+    BasicType made{.is_real = scalar.kind == real, .is_boolean = scalar.kind == boolean, .is_signed = scalar.is_signed};
+    const Type* of = &module.types[id];
+    if (of->kind == array) {
+        made.elements = of->count;
+        of = &module.types[of->element];
+    }
+    if (of->kind == matrix) {
+        made.columns = of->count;
+        of = &module.types[of->element];
+    }
+    made.rows = of->kind == vector ? of->count : 1;
+    return made;
+}
+
+} // namespace
+
 /// How many blocks or images an array of them has.
 std::uint32_t Decoder::bindings_of(const Variable& variable) const {
     constexpr std::uint32_t most = 1024; // GL has some hundred
@@ -269,6 +294,13 @@ void Decoder::block(const Variable& variable, bool is_storage) {
             block_members(last.element, 0, {member.matrix_stride, member.is_row_major}, member.name, element);
             made.element_members = std::move(element.members);
         }
+    if (of.members.size() == 1)
+        if (const Type& only = type(of.members.front().type); only.kind == Type::Kind::array) {
+            const Type::Member& member = of.members.front();
+            Block element;
+            block_members(only.element, 0, {member.matrix_stride, member.is_row_major}, member.name, element);
+            made.records = Block::Records{only.stride / word_bytes, only.count, std::move(element.members)};
+        }
     lay(module_, block_type, 0, {}, made.leaves);
     block_members(block_type, 0, {}, module_.ids[variable.id].name.empty() ? "" : of.name, made);
     address_[variable.id] = {.space = Address::Space::block,
@@ -296,7 +328,7 @@ void Decoder::block_members(std::uint32_t type_id, std::uint32_t word, MatrixLay
         for (std::uint32_t i = 0; !to.is_storage && i < of.count; ++i)
             block_members(of.element, word + i * of.stride / word_bytes, layout, fmt::format("{}[{}]", name, i), to);
     } else {
-        Block::Member one{name, {}};
+        Block::Member one{name, {}, basic_type(module_, type_id)};
         lay(module_, type_id, word, layout, one.leaves);
         if (!one.leaves.empty())
             to.members.push_back(std::move(one));
@@ -327,7 +359,8 @@ void Decoder::plain_uniforms(std::uint32_t type_id, std::uint32_t first, const s
         const Type& scalar = module_.scalar_of(type_id);
         if (scalar.kind == image || scalar.kind == sampled_image)
             refuse(fmt::format("an array of images, {}, is not interpreted", name));
-        p_.uniforms.push_back({name, first, of.cells, scalar.kind == real, scalar.kind == boolean});
+        p_.uniforms.push_back(
+            {name, first, of.cells, scalar.kind == real, scalar.kind == boolean, basic_type(module_, type_id)});
     }
 }
 

@@ -77,6 +77,15 @@ struct Leaf {
     bool is_real = false;
 };
 
+/// A scalar, vector or matrix, or an array of such.
+struct BasicType {
+    bool is_real = true, is_boolean = false, is_signed = false;
+    std::uint32_t rows = 1, columns = 1;
+    std::uint32_t elements = 0; ///< of an array; 0: it is none
+
+    [[nodiscard]] std::uint32_t cells() const { return rows * columns * (elements == 0 ? 1 : elements); }
+};
+
 /// Where the text binds a block or an image. The elements of an array of them are told apart: by modules GL, which
 /// gives each a number of its own, and Vulkan, which gives them one, are alike.
 struct Binding {
@@ -90,6 +99,7 @@ struct Block {
     struct Member {
         std::string name;
         std::vector<Leaf> leaves;
+        BasicType type = {};
     };
     std::string name; ///< of the block, not of its instance; an atomic counter's own
     bool is_storage = true;
@@ -98,6 +108,13 @@ struct Block {
     std::vector<Leaf> leaves = {}, element = {}; ///< scalars before that array, and of one of its elements
     std::vector<Member> members = {};            ///< before that array
     std::vector<Member> element_members = {};    ///< of one of its elements
+    /// Of a block that is one array: words from one element to the next, how many there are (0: as many as its buffer
+    /// has), and what one is made of.
+    struct Records {
+        std::uint32_t words = 0, count = 0;
+        std::vector<Member> members = {};
+    };
+    std::optional<Records> records = {};
     std::optional<Binding> binding = {};         ///< that the text gives it
     /// First words of members that are not `coherent` or `volatile`, and of those that are, in their order.
     struct Coherence {
@@ -116,6 +133,7 @@ struct PlainUniform {
     std::string name;
     std::uint32_t cell = 0, cells = 0; ///< elements of an array of basic types together
     bool is_real = true, is_boolean = false;
+    BasicType type = {};
 };
 
 /// A uniform that is an image or a sampler. Its cell holds its number.

@@ -166,8 +166,7 @@ TEST_CASE("coverage: a vertex stage, and a fragment stage that discards") {
                                         "void main() {\n"
                                         "    if (v_Size > 0.0)\n"
                                         "        discard;\n"
-                                        "    colour = vec4(1.0);\n"
-                                        "}\n");
+                                        "    colour = vec4(1.0); }\n"); // newer glslang returns on the brace's line
     fragment.inputs["v_Size"] = words_of({1.0F});
     text::Coverage of_fragment(fragment.program);
     fragment.coverage = &of_fragment;

@@ -127,7 +127,8 @@ TEST_CASE("text: buffers are read as images of one dimension") {
 }
 
 TEST_CASE("text: GLSL 1.10, 1.20 and GLSL ES 1.00, and a text that does not say its version") {
-    for (const std::string version : {"#version 100\n", "#version 110\n", "#version 120\n"}) {
+    for (const std::string version :
+         {"#version 100\n", "#version 110\n", "#version 120\n", "#version 130\n", "#version 140\n"}) {
         INFO(version);
         TextStage stage(Stage::fragment, version + "#ifdef GL_ES\nprecision mediump float;\n#endif\n"
                                                    "varying vec2 v_Place;\nuniform float u_By;\n"

@@ -127,6 +127,11 @@ TEST_CASE("text: compute stages have neighbours where they say so") {
           std::vector{401.0F, 801.0F, 405.0F, 805.0F, 2009.0F, 2409.0F, 2013.0F, 2413.0F});
     CHECK(left("derivative_group_quadsNV") ==
           std::vector{1601.0F, 2401.0F, 3205.0F, 4005.0F, 1609.0F, 2409.0F, 3213.0F, 4013.0F});
+    // Older glslang says so itself.
+    CHECK_THROWS_AS(TextKernel("#extension GL_NV_compute_shader_derivatives : require\n"
+                               "layout(local_size_x_id = 1, local_size_y_id = 2, derivative_group_quadsNV) in;\n"
+                               "buffer Out { float x[]; };\nvoid main() { x[0] = dFdx(1.0); }\n"),
+                    Error);
 }
 
 TEST_CASE("text: subgroups need a size, which is given") {

@@ -115,7 +115,7 @@ struct Block {
         std::vector<Member> members = {};
     };
     std::optional<Records> records = {};
-    std::optional<Binding> binding = {};         ///< that the text gives it
+    std::optional<Binding> binding = {}; ///< that the text gives it
     /// First words of members that are not `coherent` or `volatile`, and of those that are, in their order.
     struct Coherence {
         std::uint32_t word = 0;

@@ -36,8 +36,8 @@ System beside(const System& system) {
     return made;
 }
 
-void SystemTexts::take_references(const std::filesystem::path& folder,
-                                  const std::optional<std::filesystem::path>& gpu, UnusedShaders unused) {
+void SystemTexts::take_references(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& gpu,
+                                  UnusedShaders unused) {
     const ShaderUse use = shader_use(of_.system.schema.system, stages_of(of_.passes, of_.arithmetic), folder);
     check_shader_use(use, folder, unused == UnusedShaders::allowed);
     check_references(use, folder);

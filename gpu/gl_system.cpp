@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "gpu/gl_system_parts.hpp"
+#include "gpu/nothing_given.hpp"
 #include "gpu/shader_words.hpp"
 #include "reference/model/error.hpp"
 
@@ -18,6 +19,10 @@ namespace lockstep {
 namespace {
 
 void check_stage(const GlPass& pass, const Schema& schema) {
+    const bool is_full_screen = pass.draw && pass.draw->full_screen;
+    if (is_full_screen && pass.stage == Stage::fragment && pass.resource < schema.resources.size() &&
+        schema.resources[pass.resource].dimensions == 2)
+        return;
     if (pass.stage != Stage::vertex && pass.stage != Stage::compute)
         throw Error(fmt::format("{}: a pass is a vertex or a compute shader", pass.name));
     if (pass.resource >= schema.resources.size())
@@ -104,10 +109,11 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         std::vector<Stage> used{pass.stage};
         if (pass.draw && pass.draw->has_geometry)
             used.push_back(Stage::geometry);
-        if (pass.draw)
+        if (pass.draw && !pass.draw->full_screen)
             used.push_back(Stage::fragment);
         const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
-        const bool says = lockstep::says_precise(stages.front());
+        const bool is_full_screen = pass.draw && pass.draw->full_screen;
+        const bool says = lockstep::says_precise(is_full_screen ? stages.back() : stages.front());
         parts_->says_precise = parts_->says_precise && says;
         parts_->says_precise_once = parts_->says_precise_once || says;
         const std::vector<Capture> captures =
@@ -160,6 +166,8 @@ std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span
         input.defines.emplace_back("LOCKSTEP_TRACE", "1");
     std::vector<ShaderSource> all =
         load_stages(shader_folders(shaders, schema->system), pass.name, stages, input.defines, input.texts);
+    if (pass.draw && pass.draw->full_screen)
+        all.insert(all.begin(), load_stage(shader_folders({}, {}), "full_screen", Stage::vertex));
     if (!pass.uniform_blocks.empty())
         for (ShaderSource& stage : all) {
             Bindings bound = stage.bindings != nullptr ? *stage.bindings : Bindings{};
@@ -263,6 +271,16 @@ void GlSystem::Parts::check_ends(const Linked& linked, const std::string& when) 
         if (linked.may_write(storages[s]) || linked.binds(s))
             for (const RecordBuffer* const buffer : {&from(s), &to(s)})
                 check_margin(linked.program, buffer->range(block_of(*schema, storages[s], buffer == &to(s))), when);
+}
+
+void GlSystem::Parts::check_given(const Linked& linked) {
+    try {
+        linked.program.check_interface();
+    } catch (const NothingGiven& missing) {
+        if (linked.pass.advice.empty())
+            throw;
+        throw NothingGiven(missing.names, "; " + linked.pass.advice);
+    }
 }
 
 void GlSystem::Parts::step(std::size_t pass, int frame, bool keeps) {

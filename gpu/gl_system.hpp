@@ -68,6 +68,9 @@ struct GlDraw {
     std::size_t vertices = 0;  ///< of an instance, gl_VertexID; then each item is an instance. 0: each is a vertex
     bool has_geometry = false; ///< there is a NAME.geom
     bool once = false;         ///< one instance without attributes, of `vertices`
+    /// One triangle over the whole image, by a vertex stage that lockstep has (full_screen.vert): NAME.frag alone is
+    /// the pass's, of Stage::fragment. Fragments that are discarded leave their texel as it was.
+    bool full_screen = false;
     std::size_t instances = 0; ///< how often the items, each a vertex, are drawn: gl_InstanceID. 0: once
 };
 
@@ -85,7 +88,7 @@ struct GlDraw {
 /// place, by atomics, in a copy of what the pass before left. A vertex pass of an image draws it (`draw`).
 struct GlPass {
     std::string name;
-    Stage stage = Stage::vertex; ///< or compute
+    Stage stage = Stage::vertex; ///< or compute; fragment of a draw over the full screen
     std::uint8_t resource = 0;
     /// What its uniforms are in a frame; u_ItemCount is set by itself. May be empty.
     std::function<Uniforms(int frame)> uniforms = {};

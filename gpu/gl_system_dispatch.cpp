@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "gpu/gl_system_parts.hpp"
-#include "gpu/nothing_given.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -57,13 +56,7 @@ GLuint groups(std::string_view pass, std::size_t count, std::size_t size, GLuint
 
 void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     using Kind = BoundBlock::Kind;
-    try {
-        linked.program.check_interface();
-    } catch (const NothingGiven& missing) {
-        if (linked.pass.advice.empty())
-            throw;
-        throw NothingGiven(missing.names, "; " + linked.pass.advice);
-    }
+    check_given(linked);
     const auto is_copied = [&](std::uint8_t resource) { return kept || !in_place(resource); };
     for (std::size_t s = 0; s < storages.size(); ++s)
         if ((!storages[s].block.empty() || linked.pass.keeps()) && is_copied(storages[s].layout.resource) &&

@@ -101,16 +101,15 @@ void GlSystem::Parts::draw(const Linked& linked) {
     const bool encodes = image.format().layout.internal == GL_SRGB8_ALPHA8;
     if (encodes)
         gl::Enable(GL_FRAMEBUFFER_SRGB);
-    const RecordBuffer& buffer = from(first_storage(how.buffer));
-    const RecordBuffer* const one[] = {&buffer};
+    const RecordBuffer* const one[] = {how.once ? nullptr : &from(first_storage(how.buffer))};
     const GlVertexArray vertices = how.once           ? GlVertexArray()
                                    : how.vertices > 0 ? instance_array(one, linked.program)
-                                                      : vertex_array(buffer, linked.program);
-    linked.program.check_interface();
+                                                      : vertex_array(*one[0], linked.program);
+    check_given(linked);
     linked.program.use();
     gl::BindVertexArray(vertices.id());
     const GLenum primitive = how.primitive == GlDraw::Primitive::points ? GL_POINTS : GL_TRIANGLES;
-    const auto items = static_cast<GLsizei>(how.once ? 1 : buffer.size());
+    const auto items = static_cast<GLsizei>(how.once ? 1 : one[0]->size());
     ran_over = static_cast<std::uint64_t>(items) * std::max<std::size_t>(how.vertices, 1) *
                std::max<std::size_t>(how.instances, 1);
     timed([&] {

@@ -108,6 +108,8 @@ struct GlSystem::Parts {
     template <class Work> void timed(const Work& work);
     void dispatch(const Linked& linked, int frame);
     void check_ends(const Linked& linked, const std::string& when);
+    /// Throws Error where a uniform or an attribute has no value.
+    static void check_given(const Linked& linked);
     std::optional<GLintptr> group_counts(const Linked& linked);
     [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, std::span<const Stage> stages,
                                                     bool traced) const;

@@ -31,6 +31,7 @@ struct Use {
     std::size_t entry = 0;
     text::Access access;
     bool is_sampler = false;
+    bool is_output = false; ///< of a fragment stage
 };
 
 class Binder {
@@ -135,11 +136,33 @@ class Binder {
                                                           text.file, image.name, format.empty() ? "another" : format));
             uses.push_back({image.name, e, text.accesses.images[i], !image.is_storage});
         }
+        if (text.entry.stage == Stage::fragment)
+            add_output(text, uses, known);
         for (const auto& [name, value] : text.entry.bind)
             if (!known.contains(name))
                 value.fail(fmt::format("{} has no storage block, sampler or image {}{}", text.file, plain_line(name),
                                        did_you_mean(name, {known.begin(), known.end()})));
         return uses;
+    }
+
+    /// What a full-screen pass writes: its output alone.
+    void add_output(const TextOfPass& text, std::vector<Use>& uses, std::set<std::string>& known) const {
+        for (const Use& use : uses)
+            if (use.access.is_written || document_.state[use.entry].dimensions == 1)
+                text.entry.place.fail(
+                    fmt::format("{} has {} beside its output; expected samplers alone", text.file, use.name));
+        for (const text::StageVariable& output : text.program.stage_outputs) {
+            if (output.builtin)
+                continue;
+            known.insert(output.name);
+            const std::size_t e = entry_of(text, output.name, "output");
+            const StateEntry& entry = document_.state[e];
+            if (entry.dimensions != 2 || entry.format.find("32") == std::string::npos)
+                entry.place.fail(
+                    fmt::format("is what {} of {} draws; expected an image of two sides in a format of 32 bits",
+                                output.name, text.file));
+            uses.push_back({output.name, e, {.is_written = true}, false, true});
+        }
     }
 
     void take_record(std::size_t e, const TextOfPass& text, const text::Block& block) {
@@ -250,11 +273,12 @@ class Binder {
         std::set<std::size_t> written;
         for (const Use& use : uses_[p]) {
             const bool is_alone = std::ranges::count(uses_[p], use.entry, &Use::entry) == 1;
-            pass.names[use.name] = {static_cast<std::uint8_t>(use.entry),
-                                    !use.access.is_written ? GlName::Kind::before
-                                    : is_alone             ? GlName::Kind::in_place
-                                                           : GlName::Kind::after,
-                                    use.is_sampler};
+            if (!use.is_output)
+                pass.names[use.name] = {static_cast<std::uint8_t>(use.entry),
+                                        !use.access.is_written ? GlName::Kind::before
+                                        : is_alone             ? GlName::Kind::in_place
+                                                               : GlName::Kind::after,
+                                        use.is_sampler};
             if (use.access.is_written && !written.insert(use.entry).second)
                 text.entry.place.fail(fmt::format("{} writes {} through two names; expected one", text.file,
                                                   document_.state[use.entry].name));
@@ -263,6 +287,12 @@ class Binder {
         }
         if (written.empty())
             text.entry.place.fail(fmt::format("{} writes no entry of the state", text.file));
+        if (pass.stage == Stage::fragment)
+            pass.draw = GlDraw{.primitive = GlDraw::Primitive::triangles,
+                               .clears = false,
+                               .vertices = 3,
+                               .once = true,
+                               .full_screen = true};
         pass.groups = text.entry.groups;
         if (text.entry.invocations)
             pass.invocations = [count = *text.entry.invocations](int) { return count; };

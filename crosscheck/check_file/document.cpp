@@ -57,12 +57,16 @@ PassEntry read_pass(const JsonValue& pass) {
     PassEntry made{.name = file.stem().string(), .place = pass};
     if (file.has_parent_path())
         shader.fail("names a folder; expected a file's name, and its folder in \"shaders\"");
-    if (file.extension() != ".comp")
-        shader.fail("is no compute stage; expected NAME.comp");
+    if (file.extension() == ".frag")
+        made.stage = Stage::fragment;
+    else if (file.extension() != ".comp")
+        shader.fail("is no stage of a check file; expected NAME.comp, or NAME.frag for a full-screen pass");
     if (const auto bind = pass.find("bind"))
         for (const std::string& name : bind->keys())
             made.bind.emplace(name, bind->at(name));
     const auto groups = pass.find("groups"), invocations = pass.find("invocations");
+    if (made.stage == Stage::fragment && (groups || invocations))
+        (groups ? *groups : *invocations).fail("is of a compute stage; a full-screen pass has a fragment a texel");
     if (groups && invocations)
         invocations->fail("stands beside groups; expected one of both");
     if (groups) {

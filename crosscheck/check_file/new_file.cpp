@@ -76,9 +76,11 @@ class Writer {
 
   private:
     json pass(const fs::path& shader) {
-        if (shader.extension() != ".comp")
-            throw Error(
-                fmt::format("new check: {} is no compute stage; expected NAME.comp", plain_line(shader.string())));
+        const Stage stage = shader.extension() == ".frag" ? Stage::fragment : Stage::compute;
+        if (stage == Stage::compute && shader.extension() != ".comp")
+            throw Error(fmt::format("new check: {} is no stage of a check file; expected NAME.comp, or NAME.frag for a "
+                                    "full-screen pass",
+                                    plain_line(shader.string())));
         const fs::path folder = shader.has_parent_path() ? shader.parent_path() : fs::path(".");
         if (folder_ && *folder_ != folder)
             throw Error(fmt::format("new check: {} lies in another folder than the first shader; expected one folder",
@@ -86,8 +88,7 @@ class Writer {
         folder_ = folder;
         if (!fs::is_regular_file(shader))
             throw Error(fmt::format("new check: there is no file {}", plain_line(shader.string())));
-        const ShaderText text =
-            shader_text(shader_folders(folder, system_name), shader.stem().string(), Stage::compute);
+        const ShaderText text = shader_text(shader_folders(folder, system_name), shader.stem().string(), stage);
         json made{{"shader", shader.filename().string()}};
         json bind = json::object(), uniforms = json::object();
         std::set<std::string> writers; // entries that a block or image of this pass writes
@@ -96,6 +97,10 @@ class Writer {
                 bind[text.program.blocks[b].name] = buffer(text, b, writers);
         for (std::size_t i = 0; i < text.program.images.size(); ++i)
             bind[text.program.images[i].name] = image(text.program.images[i], text.accesses.images[i], writers);
+        for (const text::StageVariable& output : text.program.stage_outputs)
+            if (!output.builtin && stage == Stage::fragment)
+                bind[output.name] = image({.name = output.name, .is_storage = true, .is_real = output.is_real},
+                                          {.is_written = true}, writers);
         const auto add_uniform = [&](const std::string& name, const text::BasicType& type) {
             uniforms[name] =
                 guessed_uniform(type, todo_, fmt::format("uniform {} of {}", name, shader.filename().string()));

@@ -186,7 +186,7 @@ ShaderUse references_of(const SystemScene& scene, const RunOptions& run) {
     RunOptions of_references = run;
     of_references.shaders = run.reference;
     ShaderUse use = shaders_of(scene, of_references);
-    check_references(use, run.reference);
+    check_references(use, run.reference, scene.passes);
     return use;
 }
 

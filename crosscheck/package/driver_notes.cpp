@@ -90,7 +90,7 @@ std::vector<std::string> driver_notes(const ShadedSystem& of, const OwnTexts& ow
         fmt::format("driver: {} of {} items looked at are not what {} says, run by lockstep: {}", departed.size(),
                     items.size(), plain_line(text->source().files.front()), words_of(judged, departed.front()))};
     const BoundStage stage{text->program(), dispatch.input().bindings, judged.profile, dispatch.input().groups,
-                           text->is_vertex() ? &dispatch.input().vertices : nullptr};
+                           text->is_per_item() ? &dispatch.input().stage : nullptr};
     std::vector<text::Trace> traces;
     for (const Departure& one : departed)
         if (const auto by = dispatch.writer(judged.pass.resource(), one.item)) {

@@ -156,9 +156,8 @@ class StepsOfText final : public PassSteps {
         const TextDispatch dispatch(text, in, profile);
         const View& before = in.before[resource_];
         const BoundStage stage{text.program(), dispatch.input().bindings, profile, dispatch.input().groups,
-                               text.is_vertex() ? &dispatch.input().vertices : nullptr};
-        const std::optional<std::uint32_t> at = text.is_vertex() ? std::optional(static_cast<std::uint32_t>(item))
-                                                                 : dispatch.invocation_at(resource_, item);
+                               text.is_per_item() ? &dispatch.input().stage : nullptr};
+        const std::optional<std::uint32_t> at = dispatch.invocation_at(resource_, item);
         text::Trace trace;
         trace.notes_settings = true;
         if (at)

@@ -40,7 +40,7 @@ void SystemTexts::take_references(const std::filesystem::path& folder, const std
                                   UnusedShaders unused) {
     const ShaderUse use = shader_use(of_.system.schema.system, stages_of(of_.passes, of_.arithmetic), folder);
     check_shader_use(use, folder, unused == UnusedShaders::allowed);
-    check_references(use, folder);
+    check_references(use, folder, of_.passes);
     references_ = lockstep::take_references(of_, use, folder, gpu);
 }
 

@@ -103,7 +103,7 @@ TextNotes shader_findings(const ShadedSystem& of, const OwnTexts& own,
     std::vector<WatchedText> texts(of.passes.size());
     std::vector<std::string> lines;
     for (std::size_t p = 0; p < of.passes.size(); ++p)
-        if (!of.passes[p].draw && !of.passes[p].continues && (own[p] || shaders))
+        if ((!of.passes[p].draw || of.passes[p].draw->full_screen) && !of.passes[p].continues && (own[p] || shaders))
             try {
                 texts[p].text = own[p]
                                     ? own[p]

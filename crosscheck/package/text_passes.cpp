@@ -22,7 +22,7 @@ namespace {
 
 /// Whether a pass's shader is in a folder of the user's, or includes a file there that is no stage itself.
 bool is_own(const ShaderUse& use, const GlPass& pass) {
-    const std::string stage = pass.name + (pass.stage == Stage::compute ? ".comp" : ".vert");
+    const std::string stage = fmt::format("{}{}", pass.name, extension(pass.stage));
     return std::ranges::any_of(use.files, [&](const UsedShader& file) {
         return !file.foreign.empty() && (file.file.starts_with(stage) || !stage_of(file.file));
     });
@@ -33,8 +33,8 @@ std::shared_ptr<const PassText> text_of(const ShadedSystem& of, std::size_t p, c
                                             of.arithmetic);
 }
 
-/// A compute pass, or a vertex pass whose outputs are captured.
-bool has_text(const GlPass& pass) { return !pass.draw; }
+/// A compute pass, a vertex pass whose outputs are captured, or a draw over the full screen.
+bool has_text(const GlPass& pass) { return !pass.draw || pass.draw->full_screen; }
 
 /// The pass that dispatches what pass p takes an output of: p itself, or the one that it continues.
 std::size_t lead_of(const ShadedSystem& of, std::size_t p) {
@@ -74,16 +74,20 @@ std::vector<PassStages> stages_of(const std::vector<GlPass>& passes, ArithmeticS
         stages.push_back({pass.name, {pass.stage}, {input}});
         if (pass.draw && pass.draw->has_geometry)
             stages.back().stages.push_back(Stage::geometry);
-        if (pass.draw)
+        if (pass.draw && !pass.draw->full_screen)
             stages.back().stages.push_back(Stage::fragment);
     }
     return stages;
 }
 
-void check_references(const ShaderUse& references, const std::filesystem::path& folder) {
+void check_references(const ShaderUse& references, const std::filesystem::path& folder,
+                      std::span<const GlPass> passes) {
+    const bool has_fragments =
+        std::ranges::any_of(passes, [](const GlPass& one) { return one.stage == Stage::fragment; });
     for (const UsedShader& file : references.files)
         if (const std::optional<Stage> stage = stage_of(file.file);
-            !file.foreign.empty() && stage && *stage != Stage::compute && *stage != Stage::vertex)
+            !file.foreign.empty() && stage && *stage != Stage::compute && *stage != Stage::vertex &&
+            !(has_fragments && *stage == Stage::fragment))
             throw Error(
                 fmt::format("--reference {}: {} is no compute or vertex stage; a text is the reference of these",
                             plain_line(folder.string()), file.file));

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct ShadedSystem {
 std::vector<PassStages> stages_of(const std::vector<GlPass>& passes, ArithmeticSwitch arithmetic);
 
 /// `references`: the shaders of `folder`, --reference. Throws Error where one is of a stage whose text is no reference.
-void check_references(const ShaderUse& references, const std::filesystem::path& folder);
+void check_references(const ShaderUse& references, const std::filesystem::path& folder, std::span<const GlPass> passes);
 
 /// Of each pass, its shader's text; null: it is not the user's own, or not interpreted.
 using OwnTexts = std::vector<std::shared_ptr<const PassText>>;

@@ -1,6 +1,7 @@
 #include "crosscheck/text/pass_text.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -20,7 +21,7 @@ namespace {
 std::shared_ptr<const ShaderSource> source_of(const GlPass& pass, const ShaderFolders& folders,
                                               ArithmeticSwitch arithmetic) {
     const StageInput input = stage_input(pass, arithmetic);
-    if (pass.draw)
+    if (pass.draw && !pass.draw->full_screen)
         throw Error(fmt::format("{}: a pass that draws is not interpreted", pass.name));
     const std::array stages{pass.stage};
     return std::make_shared<ShaderSource>(load_stages(folders, pass.name, stages, input.defines, input.texts).front());
@@ -122,8 +123,26 @@ PassText::PassText(const Schema& schema, GlPass pass, std::vector<std::uint8_t> 
     }
     for (const text::ImageUniform& image : program_.images)
         images_.push_back(image_named(image.name));
-    if (is_vertex())
+    if (pass_.stage == Stage::fragment)
+        capture_output();
+    else if (is_per_item())
         capture();
+}
+
+void PassText::capture_output() {
+    captured_.emplace(Bound{.kind = Bound::Kind::after, .resource = pass_.resource});
+    std::vector<const text::StageVariable*> outputs;
+    for (const text::StageVariable& output : program_.stage_outputs)
+        if (!output.builtin)
+            outputs.push_back(&output);
+    const auto components = static_cast<std::uint32_t>(schema_.resources[pass_.resource].fields.front().components);
+    if (outputs.size() != 1 || outputs.front()->cells < components)
+        refuse(fmt::format("{} outputs; expected one, of {} components or more", outputs.size(), components));
+    for (std::uint32_t c = 0; c < components; ++c) {
+        captured_->record.push_back({0, static_cast<int>(c)});
+        captured_cells_.push_back(
+            {text::name_of(*outputs.front()), outputs.front()->cells, c, outputs.front()->cell + c});
+    }
 }
 
 void PassText::capture() {
@@ -138,13 +157,14 @@ void PassText::capture() {
             refuse(fmt::format("output {} has {} components; expected {}", name, output->cells, fields[f].components));
         for (int c = 0; c < fields[f].components; ++c) {
             captured_->record.push_back({f, c});
-            captured_cells_.push_back(output->cell + static_cast<std::uint32_t>(c));
+            captured_cells_.push_back(
+                {name, output->cells, static_cast<std::uint32_t>(c), output->cell + static_cast<std::uint32_t>(c)});
         }
     }
 }
 
 std::optional<std::size_t> PassText::captured_component(std::uint64_t cell) const {
-    const auto found = std::ranges::find(captured_cells_, cell);
+    const auto found = std::ranges::find(captured_cells_, cell, &CapturedCell::cell);
     return found == captured_cells_.end() ? std::nullopt
                                           : std::optional(static_cast<std::size_t>(found - captured_cells_.begin()));
 }
@@ -189,8 +209,42 @@ text::StageRun PassText::vertices(const PassInput& in) const {
     return run;
 }
 
-std::vector<text::GivenInput> PassText::inputs_of(const Input& input, std::uint32_t vertex) const {
-    return text::inputs_of(program_, input.vertices, vertex);
+namespace {
+
+/// Quads that cover a side.
+std::uint32_t quads(std::size_t side) { return static_cast<std::uint32_t>((side + 1) / 2); }
+
+} // namespace
+
+std::uint32_t PassText::invocation_of(std::size_t item, const Extent& extent) const {
+    if (pass_.stage != Stage::fragment)
+        return static_cast<std::uint32_t>(item);
+    const auto x = static_cast<std::uint32_t>(item % extent.width), y = static_cast<std::uint32_t>(item / extent.width);
+    return 4 * (y / 2 * quads(extent.width) + x / 2) + 2 * (y % 2) + x % 2;
+}
+
+text::StageRun PassText::fragments(const PassInput& in) const {
+    const Extent& extent = in.before[pass_.resource].extent;
+    text::StageRun run{.invocations = 4 * quads(extent.width) * quads(extent.height), .are_quads = true};
+    for (const text::StageVariable& input : program_.stage_inputs) {
+        if (input.builtin != spv::BuiltInFragCoord) {
+            if (!input.builtin && input.is_read)
+                refuse(fmt::format("nothing is given for input {}; expected gl_FragCoord alone", input.name));
+            continue;
+        }
+        std::vector<std::uint32_t>& words = run.inputs[text::name_of(input)];
+        for (std::uint32_t number = 0; number < run.invocations; ++number) {
+            const std::uint32_t quad = number / 4, x = 2 * (quad % quads(extent.width)) + number % 2,
+                                y = 2 * (quad / quads(extent.width)) + number / 2 % 2;
+            for (const float coordinate : {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, 0.5F, 1.0F})
+                words.push_back(std::bit_cast<std::uint32_t>(coordinate));
+        }
+    }
+    return run;
+}
+
+std::vector<text::GivenInput> PassText::inputs_of(const Input& input, std::uint32_t number) const {
+    return text::inputs_of(program_, input.stage, number);
 }
 
 void PassText::refuse(std::string_view what) const {
@@ -339,8 +393,9 @@ PassText::Input PassText::bind(const PassInput& in, const Profile& profile) cons
         if (!profile.follows(schema_.resources[resource].dimensions == 2 ? "image: linear filter of a plane"
                                                                          : "image: linear filter"))
             refuse("this driver's linear filter is not followed");
-    if (is_vertex())
-        input.vertices = vertices(in);
+    input.extent = in.before[pass_.resource].extent;
+    if (is_per_item())
+        input.stage = pass_.stage == Stage::fragment ? fragments(in) : vertices(in);
     else
         input.groups = groups(in);
     return input;
@@ -378,7 +433,7 @@ void PassText::run_into(const Input& input, const Profile& profile, text::Findin
         bindings.blocks[b] = to[b];
     for (std::size_t i = 0; i < bindings.images.size(); ++i)
         bindings.images[i].words = to[bindings.blocks.size() + i];
-    if (!is_vertex()) {
+    if (!is_per_item()) {
         text::run_dispatch(program_,
                            {.groups = input.groups,
                             .wants = how.wants,
@@ -389,7 +444,7 @@ void PassText::run_into(const Input& input, const Profile& profile, text::Findin
         return;
     }
     if (how.is_watched || how.coverage != nullptr) {
-        text::StageRun run = input.vertices;
+        text::StageRun run = input.stage;
         run.is_watched = how.is_watched;
         run.coverage = how.coverage;
         run.keeps_outputs = false;
@@ -398,15 +453,16 @@ void PassText::run_into(const Input& input, const Profile& profile, text::Findin
         text::run_stage(program_, run, bindings, profile, findings);
         return;
     }
-    const text::StageResult made = text::run_stage(program_, input.vertices, bindings, profile, findings);
+    const text::StageResult made = text::run_stage(program_, input.stage, bindings, profile, findings);
     std::vector<std::uint32_t>& words = to[blocks_.size() + images_.size()];
-    const std::vector<Component>& record = captured_->record;
-    for (std::size_t k = 0; k < record.size(); ++k) {
-        const Field& field = schema_.resources[pass_.resource].fields[record[k].field];
-        const std::vector<std::uint32_t>& output = made.outputs.at("out_" + shader_name(field.name));
-        const auto n = static_cast<std::size_t>(field.components);
-        for (std::size_t item = 0; item * n < output.size(); ++item)
-            words[item * record.size() + k] = output[item * n + static_cast<std::size_t>(record[k].component)];
+    for (std::size_t k = 0; k < captured_cells_.size(); ++k) {
+        const CapturedCell& from = captured_cells_[k];
+        const std::vector<std::uint32_t>& output = made.outputs.at(from.output);
+        for (std::size_t item = 0; item * captured_cells_.size() < words.size(); ++item) {
+            const std::size_t number = invocation_of(item, input.extent);
+            if (made.is_discarded[number] == 0)
+                words[item * captured_cells_.size() + k] = output[number * from.cells + from.component];
+        }
     }
 }
 

@@ -25,7 +25,8 @@ std::vector<std::uint32_t> words_of(const UniformValue& value);
 /// Of what a host gives, the words of one uniform, of an array those of its elements; none: nothing is given.
 std::vector<std::uint32_t> words_given(const Uniforms& given, const text::PlainUniform& uniform);
 
-/// The shader of a compute pass, or of a vertex pass that is captured, as a text, with what GlSystem binds to it.
+/// The shader of a compute pass, of a vertex pass that is captured, or of a draw over the full screen, as a text, with
+/// what GlSystem binds to it.
 class PassText {
   public:
     /// `written`: the resources that the dispatch makes, of the pass and of those that continue it. Throws Error naming
@@ -42,8 +43,10 @@ class PassText {
     PassText(const PassText&) = delete;
     PassText& operator=(const PassText&) = delete;
     [[nodiscard]] std::size_t items(const PassInput& in) const; ///< that its dispatch has invocations for
-    /// An item, one invocation: a vertex.
-    [[nodiscard]] bool is_vertex() const { return pass_.stage == Stage::vertex; }
+    /// Each item has an invocation of its own: a vertex, or a fragment.
+    [[nodiscard]] bool is_per_item() const { return pass_.stage != Stage::compute; }
+    /// Then which one it is, in an image of this extent. Fragments are numbered quad by quad.
+    [[nodiscard]] std::uint32_t invocation_of(std::size_t item, const Extent& extent) const;
 
     /// What is run of a dispatch, as text::Dispatch has it. Vertices that are watched, or whose coverage is asked for,
     /// count as groups of lanes_at_once, and make no words.
@@ -64,7 +67,8 @@ class PassText {
         std::vector<std::vector<std::uint32_t>> words;
         text::Bindings bindings; ///< refers to them
         std::array<std::uint32_t, 3> groups{1, 1, 1};
-        text::StageRun vertices; ///< of a vertex pass
+        text::StageRun stage; ///< of vertices or fragments
+        Extent extent;        ///< of the items that these make
     };
     /// Throws Error where the driver filters as the text's reading does not.
     [[nodiscard]] Input bind(const PassInput& in, const Profile& profile) const;
@@ -79,9 +83,9 @@ class PassText {
     [[nodiscard]] bool reads(std::uint8_t resource) const;
     /// Where an invocation is, by its number.
     [[nodiscard]] text::Invocation invocation(const Input& input, std::uint32_t number) const {
-        return is_vertex() ? text::Invocation{.number = number} : text::invocation_of(program_, input.groups, number);
+        return is_per_item() ? text::Invocation{.number = number} : text::invocation_of(program_, input.groups, number);
     }
-    /// The inputs of one vertex.
+    /// The inputs of one vertex or fragment.
     [[nodiscard]] std::vector<text::GivenInput> inputs_of(const Input& input, std::uint32_t vertex) const;
     /// Runs the whole into the words: of `to`, which has as many as input.words.
     void run_into(const Input& input, const Profile& profile, text::Findings& findings, const How& how,
@@ -105,7 +109,9 @@ class PassText {
     }
     [[nodiscard]] std::size_t bound_words() const { return blocks_.size() + images_.size() + (captured_ ? 1 : 0); }
     void capture();
+    void capture_output();
     [[nodiscard]] text::StageRun vertices(const PassInput& in) const;
+    [[nodiscard]] text::StageRun fragments(const PassInput& in) const;
     [[nodiscard]] std::array<std::uint32_t, 3> groups(const PassInput& in) const;
     [[nodiscard]] Uniforms given(const PassInput& in) const;
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> uniforms(const PassInput& in) const;
@@ -120,8 +126,14 @@ class PassText {
     text::Program program_;
     text::Outcomes outcomes_{program_};
     std::vector<Bound> blocks_, images_;
-    std::optional<Bound> captured_;             ///< of a vertex pass
-    std::vector<std::uint32_t> captured_cells_; ///< of each of its components
+    std::optional<Bound> captured_; ///< of vertices or fragments
+    /// A component of it: that of an output.
+    struct CapturedCell {
+        std::string output;
+        std::uint32_t cells = 0, component = 0; ///< of the output
+        std::uint32_t cell = 0;
+    };
+    std::vector<CapturedCell> captured_cells_;
 };
 
 } // namespace lockstep

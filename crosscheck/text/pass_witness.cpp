@@ -28,7 +28,7 @@ class WitnessedPass {
     WitnessedPass(const PassText& text, const PassInput& in, const Profile& profile, CommonNumbers& numbers)
         : text_(text), dispatch_(text, in, profile), stage_{text.program(), dispatch_.input().bindings, profile,
                                                             dispatch_.input().groups,
-                                                            text.is_vertex() ? &dispatch_.input().vertices : nullptr} {
+                                                            text.is_per_item() ? &dispatch_.input().stage : nullptr} {
         for (const text::Block& block : text.program().blocks)
             blocks_.push_back(numbers.of(block.name));
         for (const text::ImageUniform& image : text.program().images)

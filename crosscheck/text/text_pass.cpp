@@ -22,6 +22,12 @@ namespace {
 
 using Space = text::WrittenPlace::Space;
 
+PassStage stage_of(const GlPass& pass) {
+    return pass.stage == Stage::compute    ? PassStage::compute
+           : pass.stage == Stage::fragment ? PassStage::fragment
+                                           : PassStage::vertex;
+}
+
 /// Which of an item's components it is.
 std::size_t place_of(const Resource& about, const Component& one) {
     std::size_t place = static_cast<std::size_t>(one.component);
@@ -90,8 +96,8 @@ void TextDispatch::write(const View& before, std::uint8_t resource, std::size_t 
 }
 
 std::optional<std::uint32_t> TextDispatch::writer(std::uint8_t resource, std::size_t item) const {
-    if (text_.is_vertex()) // each makes its own
-        return static_cast<std::uint32_t>(item);
+    if (text_.is_per_item())
+        return invocation_at(resource, item);
     run();
     std::uint32_t writer = 0;
     for (const std::size_t from : text_.words_of_resource(resource)) {
@@ -110,6 +116,8 @@ std::optional<std::uint32_t> TextDispatch::writer(std::uint8_t resource, std::si
 
 std::optional<std::uint32_t> TextDispatch::invocation_at(std::uint8_t resource, std::size_t item) const {
     const Extent& extent = extents_[resource];
+    if (text_.is_per_item())
+        return text_.invocation_of(item, extent);
     const std::array<std::size_t, 3> at{item % extent.width, item / extent.width % extent.height,
                                         item / extent.width / extent.height};
     const std::array<std::uint32_t, 3>& size = text_.program().group;
@@ -133,7 +141,7 @@ std::optional<Component> TextDispatch::component_at(std::uint8_t resource, std::
     const std::size_t blocks = input_.bindings.blocks.size();
     for (const std::size_t from : text_.words_of_resource(resource)) {
         const std::span<const Component> record = text_.record(from);
-        if (text_.is_vertex()) {
+        if (text_.is_per_item()) {
             const std::optional<std::size_t> captured =
                 place.space == Space::output ? text_.captured_component(place.word) : std::nullopt;
             if (captured && *captured < record.size())
@@ -170,7 +178,7 @@ std::optional<std::vector<std::uint32_t>> TextDispatch::words_by(const View& bef
 std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t resource, std::size_t item,
                                                 const KnownOperations& known, text::Constants constants) const {
     run();
-    const PassStage stage = text_.is_vertex() ? PassStage::vertex : PassStage::compute;
+    const PassStage stage = stage_of(text_.pass());
     const std::optional<std::uint32_t> by = writer(resource, item);
     if (!by)
         return {};
@@ -181,7 +189,7 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
         const std::vector<text::GivenInput> inputs = text_.inputs_of(input_, *by);
         for (text::InvocationOutcome& one :
              text_.outcomes().of(text_.invocation(input_, *by), input_.groups, input_.bindings, stage, profile_,
-                                 text_.is_vertex() ? known : in_compute_stage(known, profile_), constants, inputs)) {
+                                 text_.is_per_item() ? known : in_compute_stage(known, profile_), constants, inputs)) {
             ItemOutcome outcome{.values = {}, .open = std::move(one.open), .undefined = one.undefined};
             for (const Component& c : parts)
                 outcome.values.push_back(one.undefined != Undefined::none
@@ -309,7 +317,7 @@ std::vector<std::unique_ptr<ItemPass>> passes_without_twins(std::span<const GlPa
     for (const GlPass& pass : passes)
         made.push_back(item_pass({.name = pass.name,
                                   .resource = pass.resource,
-                                  .stage = pass.stage == Stage::compute ? PassStage::compute : PassStage::vertex,
+                                  .stage = stage_of(pass),
                                   .runs = pass.runs,
                                   .continues = pass.continues},
                                  Unchanged{pass.resource}));

@@ -132,6 +132,8 @@ std::vector<InvocationOutcome> Outcomes::of(const Invocation& invocation, std::a
             for (const GivenInput& one : inputs)
                 run.give(*one.input, 0, one.words);
             run.run();
+            if (run.is_discarded(0))
+                written.clear();
             return Ended{&written};
         },
         [&](const Ended* ended, std::span<const Fork> forks, Undefined undefined) {

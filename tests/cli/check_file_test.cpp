@@ -249,6 +249,67 @@ TEST_CASE("check file: images in place, of three dimensions, filtered, and of co
     CHECK_THAT(line(said, "verdict"), Contains("AGREE") || Contains("LEGAL"));
 }
 
+TEST_CASE("check file: a fragment stage draws an image, texel by texel") {
+    if (!have_software_gl())
+        return;
+    const json document{{"state",
+                         {{"cells", {{"size", {7, 5}}, {"format", "r32f"}, {"start", {{"random", {0, 1}}}}}},
+                          {"slopes", {{"size", {7, 5}}, {"format", "rgba32f"}}}}},
+                        {"uniforms", {{"u_Step", 0.5}}},
+                        {"passes",
+                         {{{"shader", "spread.frag"}, {"bind", {{"u_Cells", "cells"}, {"colour", "cells"}}}},
+                          {{"shader", "slope.frag"}, {"bind", {{"u_Cells", "cells"}, {"slope", "slopes"}}}}}}};
+    const std::string spread =
+        "uniform sampler2D u_Cells; uniform float u_Step;\n"
+        "out vec4 colour;\n"
+        "void main() {\n"
+        "    ivec2 p = ivec2(gl_FragCoord.xy);\n"
+        "    if (p.x == 3)\n"
+        "        discard;\n"
+        "    float own = texelFetch(u_Cells, p, 0).r;\n"
+        "    colour = vec4(own + u_Step * (texelFetch(u_Cells, max(p - 1, ivec2(0)), 0).r - own));\n"
+        "}\n";
+    const std::string slope = "uniform sampler2D u_Cells;\n"
+                              "out vec4 slope;\n"
+                              "void main() {\n"
+                              "    float own = texelFetch(u_Cells, ivec2(gl_FragCoord.xy), 0).r;\n"
+                              "    slope = vec4(dFdx(gl_FragCoord.x), own, gl_FragCoord.zw);\n"
+                              "}\n";
+    const Made made(document, {{"spread.frag", spread}, {"slope.frag", slope}});
+    const Outcome said = made.check();
+    INFO(said.out << said.err);
+    CHECK(said.status == 0);
+    CHECK_THAT(line(said, "verdict"), Contains("AGREE") || Contains("LEGAL"));
+    CHECK_THAT(said.out, Contains("compared  105 floats of cells, 420 of slopes"));
+    fs::create_directory(made.folder.path() / "reference");
+    std::string other = spread;
+    other.replace(other.find("p - 1"), 5, "p - 2");
+    made.folder.write("reference/spread.frag", "#version 450 core\n" + other);
+    made.folder.write("reference/slope.frag", "#version 450 core\n" + slope);
+    const Outcome wrong = made.check({"--reference", (made.folder.path() / "reference").string()});
+    INFO(wrong.out << wrong.err);
+    CHECK(wrong.status == 1);
+    CHECK_THAT(line(wrong, "verdict"), Contains("DIVERGENT"));
+    CHECK_THAT(wrong.out, Contains("without a counterpart in the reference: spread.frag:9:"));
+    const Outcome explained = run("explain", made.file, {"--frame", "1", "--item", "2,2", "--pass", "spread"});
+    CHECK_THAT(explained.out, Contains("spread.frag, run by lockstep: it ends in the GPU's bits"));
+    json inputs = document;
+    inputs["passes"].erase(1);
+    inputs["state"].erase("slopes");
+    CHECK_THAT(refusal(Made(inputs, {{"spread.frag", "in vec2 v_At;\n" + spread.substr(0, spread.find("colour = ")) +
+                                                         "colour = vec4(v_At, u_Step, own);\n}\n"}})
+                           .check()),
+               Contains("nothing is given for input v_At; expected gl_FragCoord alone"));
+    inputs["state"]["cells"]["format"] = "rgba8";
+    CHECK_THAT(refusal(Made(inputs, {{"spread.frag", spread}}).check()),
+               Contains("/state/cells: is what colour of ") &&
+                   Contains("expected an image of two sides in a format of 32 bits"));
+    inputs["state"]["cells"]["format"] = "r32f";
+    inputs["passes"][0]["groups"] = {1};
+    CHECK_THAT(refusal(Made(inputs, {{"spread.frag", spread}}).check()),
+               Contains("/passes/0/groups: is of a compute stage"));
+}
+
 TEST_CASE("check file: start values from a table, and states that were recorded") {
     if (!have_software_gl())
         return;
@@ -335,8 +396,7 @@ TEST_CASE("new check: a file from what shaders declare, which runs at once") {
     CHECK(run_lockstep({"new", "check", scan.beside("scan/scan.comp"), scan.beside("scan/add.comp")}).status == 0);
     CHECK(run("check", scan.file(), {"--frames", "2"}).status == 0);
     CHECK_THAT(refusal(run_lockstep({"new", "check", scan.beside("scan/none.comp")})), Contains("there is no file"));
-    CHECK_THAT(refusal(run_lockstep({"new", "check", scan.beside("scan/other.frag")})),
-               Contains("is no compute stage"));
+    CHECK_THAT(refusal(run_lockstep({"new", "check", scan.beside("scan/other.frag")})), Contains("there is no file"));
     CHECK_THAT(refusal(run_lockstep({"new", "check", scan.beside("scan/scan.comp"), first, "-o", file})),
                Contains("lies in another folder than the first shader"));
 }
@@ -373,7 +433,7 @@ TEST_CASE("check file: what does not fit is refused with its place, and nothing 
          "/state/other: no pass has it; expected a block, sampler or image of this name"},
         {"/state/other", {{"size", {99999, 99999}}, {"format", "r32f"}}, "/state/other/size/0: 99999 is not"},
         {"/passes/0/shader", "none.comp", "none.comp"},
-        {"/passes/0/shader", "double.frag", "/passes/0/shader: is no compute stage; expected NAME.comp"},
+        {"/passes/0/shader", "double.frag", "double.frag"},
         {"/passes/0/shader", "../double.comp", "/passes/0/shader: names a folder"},
         {"/passes/0/bind", {{"Data", "date"}}, "/passes/0/bind/Data: 'date' is no entry of the state; there are Data"},
         {"/passes/0/bind", {{"Dato", "Data"}}, "/passes/0/bind/Dato: "},

@@ -114,9 +114,8 @@ struct GlPass {
     /// Of a compute pass: where its group counts lie, for an indirect dispatch. Items that no group makes stay as they
     /// were.
     std::optional<GroupCounts> indirect = {};
-    /// Of a compute pass: how many groups it has along each axis, instead of as many as its items take. Items that none
-    /// makes stay as they were.
-    std::optional<std::array<std::uint32_t, 3>> groups = {};
+    /// Of a compute pass: how many invocations it has along each axis, at least, instead of as many as its items take.
+    std::optional<std::array<std::uint32_t, 3>> size = {};
     /// Names of its shader's blocks, samplers and images beside those above; where one is an image's, none of those.
     std::map<std::string, GlName, std::less<>> names = {};
     /// Uniform blocks whose members get values by their names in GL, as plain uniforms do: Frame.tick, or tick.
@@ -125,7 +124,7 @@ struct GlPass {
     std::string advice = {};
 
     /// Whether the shader may leave items out of a buffer in two copies.
-    [[nodiscard]] bool keeps() const { return invocations || indirect || groups; }
+    [[nodiscard]] bool keeps() const { return (invocations && names.empty()) || indirect; }
 };
 
 /// With what its files are put together.

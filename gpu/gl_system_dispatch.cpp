@@ -91,15 +91,17 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     const std::size_t items =
         linked.pass.invocations ? linked.pass.invocations(frame) : this->items(linked.pass.resource);
     ran_over = items;
-    if (linked.pass.groups)
-        ran_over = std::uint64_t{(*linked.pass.groups)[0]} * (*linked.pass.groups)[1] * (*linked.pass.groups)[2] *
-                   linked.invocations;
+    std::array<GLuint, 3> counts{};
+    for (GLuint axis = 0; axis < 3 && linked.pass.size; ++axis)
+        counts[axis] = groups(linked.pass.name, (*linked.pass.size)[axis], linked.group[axis], axis);
+    if (linked.pass.size)
+        ran_over = std::uint64_t{counts[0]} * counts[1] * counts[2] * linked.invocations;
     // Negative: as many groups as the items take.
     const GLintptr place = linked.pass.indirect ? group_counts(linked).value_or(-1) : -1;
     linked.program.use();
     timed([&] {
-        if (linked.pass.groups)
-            gl::DispatchCompute((*linked.pass.groups)[0], (*linked.pass.groups)[1], (*linked.pass.groups)[2]);
+        if (linked.pass.size)
+            gl::DispatchCompute(counts[0], counts[1], counts[2]);
         else if (place >= 0)
             gl::DispatchComputeIndirect(place);
         else if (is_image(linked.pass.resource) && !linked.pass.invocations)

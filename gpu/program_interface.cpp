@@ -50,7 +50,9 @@ std::vector<ProgramInterface::Given> ProgramInterface::asked(std::string_view na
     const auto [first, last] = given_.equal_range(name);
     for (auto one = first; one != last; ++one) {
         const ProgramVariable& variable = variables_[one->second.variable];
-        if (one->second.component < 0 && variable.type != type)
+        // In a block a bool is a word.
+        const bool is_bool_word = variable.block >= 0 && variable.type == GL_BOOL && type == GL_UNSIGNED_INT;
+        if (one->second.component < 0 && variable.type != type && !is_bool_word)
             throw Error(fmt::format("shader {}: {} {} is {}, but must be {}", variable.declared.place, kind_,
                                     variable.name, type_name(variable.type), type_name(type)));
         found.push_back(one->second);

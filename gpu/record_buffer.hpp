@@ -29,6 +29,7 @@ struct RecordLayout {
     [[nodiscard]] const Resource& about() const { return schema->resources[resource]; }
     [[nodiscard]] const Field& field(const Member& member) const { return about().fields[member.field]; }
     [[nodiscard]] std::size_t words() const; ///< of a record
+    [[nodiscard]] bool has_gaps() const;     ///< words that are no member's
     [[nodiscard]] std::size_t bytes() const { return words() * sizeof(std::uint32_t); }
     /// Calls `visit(member, its first word in a record)`.
     template <class Visit> void for_each_member(const Visit& visit) const {

@@ -151,6 +151,10 @@ class Binder {
             if (use.access.is_written || document_.state[use.entry].dimensions == 1)
                 text.entry.place.fail(
                     fmt::format("{} has {} beside its output; expected samplers alone", text.file, use.name));
+        for (const text::StageVariable& input : text.program.stage_inputs)
+            if (!input.builtin && input.is_read)
+                text.entry.place.fail(fmt::format("nothing is given for input {} of {}; expected gl_FragCoord alone",
+                                                  input.name, text.file));
         for (const text::StageVariable& output : text.program.stage_outputs) {
             if (output.builtin)
                 continue;
@@ -293,7 +297,11 @@ class Binder {
                                .vertices = 3,
                                .once = true,
                                .full_screen = true};
-        pass.groups = text.entry.groups;
+        if (text.entry.groups) {
+            pass.size = *text.entry.groups;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                (*pass.size)[axis] *= text.program.group[axis];
+        }
         if (text.entry.invocations)
             pass.invocations = [count = *text.entry.invocations](int) { return count; };
         pass.advice = "\"uniforms\" of the check file gives it";
@@ -318,6 +326,7 @@ class Binder {
             const auto in_all = of_all.take(name), here = own.take(name);
             if (here || in_all)
                 values.add(name, type, here ? *here : *in_all);
+            return here || in_all;
         };
         for (const text::PlainUniform& uniform : text.program.uniforms)
             give(uniform.name, uniform.type);
@@ -325,8 +334,13 @@ class Binder {
             if (block.is_storage)
                 continue;
             pass.uniform_blocks.push_back(block.name);
-            for (const text::Block::Member& member : block.members)
-                give(member.name, member.type);
+            for (const text::Block::Member& member : block.members) {
+                // The program's interface has the block's name before a member's, whether it has an instance or not.
+                const std::string whole = block.name + "." + member.name;
+                if (!give(member.name, member.type) && !member.name.starts_with(block.name + "."))
+                    give(whole, member.type);
+                values.rename(member.name, whole);
+            }
         }
         own.check(fmt::format("{} has no uniform of this name", text.file));
         pass.uniforms = [values](int frame) { return values.at(frame); };

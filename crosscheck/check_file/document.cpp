@@ -46,6 +46,8 @@ StateEntry read_entry(const std::string& name, const JsonValue& entry) {
         filter->fail("is of an image; expected none for a buffer");
     if (filter && filter->choice({"nearest", "linear"}) == 1)
         made.filter = GlFilter::linear;
+    if (made.filter && made.format.ends_with('i'))
+        filter->fail("is of floats; expected nearest for an image of integers");
     made.start = entry.find("start");
     return made;
 }
@@ -76,6 +78,9 @@ PassEntry read_pass(const JsonValue& pass) {
         made.groups = {1, 1, 1};
         for (std::size_t k = 0; k < axes.size(); ++k)
             (*made.groups)[k] = static_cast<std::uint32_t>(axes[k].integer(1, most_groups));
+        if (const std::uint64_t all = std::uint64_t{(*made.groups)[0]} * (*made.groups)[1] * (*made.groups)[2];
+            all > static_cast<std::uint64_t>(most_items))
+            groups->fail(fmt::format("{} groups; expected at most {}", all, most_items));
     }
     if (invocations)
         made.invocations = static_cast<std::size_t>(invocations->integer(1, most_items));

@@ -99,8 +99,7 @@ class Writer {
             bind[text.program.images[i].name] = image(text.program.images[i], text.accesses.images[i], writers);
         for (const text::StageVariable& output : text.program.stage_outputs)
             if (!output.builtin && stage == Stage::fragment)
-                bind[output.name] = image({.name = output.name, .is_storage = true, .is_real = output.is_real},
-                                          {.is_written = true}, writers);
+                bind[output.name] = image({output.name, true, {}, output.is_real}, {.is_written = true}, writers);
         const auto add_uniform = [&](const std::string& name, const text::BasicType& type) {
             uniforms[name] =
                 guessed_uniform(type, todo_, fmt::format("uniform {} of {}", name, shader.filename().string()));

@@ -13,6 +13,7 @@
 
 #include "crosscheck/files/number_table.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "reference/half.hpp"
 #include "reference/model/near_name.hpp"
 #include "reference/model/random.hpp"
 
@@ -144,14 +145,25 @@ void set_by_table(const JsonValue& start, const WritableView& state) {
         });
 }
 
+/// What an image of halves holds.
+void round_to_halves(const WritableView& state) {
+    const std::size_t words = state.count() * static_cast<std::size_t>(state.fields().front().components);
+    for (std::size_t w = 0; w < words; ++w) {
+        float number = 0.0F;
+        std::memcpy(&number, state.columns[0] + w * sizeof number, sizeof number);
+        number = half_nearest(number);
+        std::memcpy(state.columns[0] + w * sizeof number, &number, sizeof number);
+    }
+}
+
 /// Whether an object is a value, and not one by field.
 bool is_source(const JsonValue& start) { return start.find("values") || start.find("random") || start.find("index"); }
 
 } // namespace
 
-void set_start(const StateEntry& entry, const WritableView& state) {
-    if (!entry.start)
-        return;
+namespace {
+
+void set_values(const StateEntry& entry, const WritableView& state) {
     const JsonValue& start = *entry.start;
     const std::vector<Field>& fields = state.fields();
     if (start.is_object() && start.find("table"))
@@ -162,17 +174,30 @@ void set_start(const StateEntry& entry, const WritableView& state) {
                 fmt::format("is one value, but an item has {} fields; expected an object by field", fields.size()));
         return set_field(state, 0, read_source(start, fields.front(), state.count()));
     }
+    // Where two buffers have fields of one name, the buffer's goes before it.
+    const std::string before = entry.name + "_";
     std::vector<std::string> names;
     for (const Field& field : fields)
-        names.push_back(field.name);
+        names.push_back(field.name.starts_with(before) ? field.name.substr(before.size()) : field.name);
     for (const std::string& name : start.keys()) {
-        const auto found = std::find(names.begin(), names.end(), name);
+        auto found = std::ranges::find(names, name);
+        if (found == names.end() && name.starts_with(before))
+            found = std::ranges::find(names, name.substr(before.size()));
         if (found == names.end())
             start.at(name).fail(fmt::format("its shaders declare no field {}; they have {}{}", plain_line(name),
                                             fmt::join(names, ", "), did_you_mean(name, names)));
         const auto f = static_cast<std::size_t>(found - names.begin());
         set_field(state, f, read_source(start.at(name), fields[f], state.count()));
     }
+}
+
+} // namespace
+
+void set_start(const StateEntry& entry, const WritableView& state) {
+    if (entry.start)
+        set_values(entry, state);
+    if (entry.format.ends_with("16f"))
+        round_to_halves(state);
 }
 
 } // namespace lockstep::check_file

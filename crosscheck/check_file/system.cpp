@@ -23,9 +23,16 @@ fs::path folder(const JsonValue& document, std::string_view key, const fs::path&
     if (!named)
         return otherwise;
     fs::path found = file.parent_path() / named->text();
-    if (!fs::is_directory(found))
+    if (named->text().empty() || !fs::is_directory(found))
         named->fail(fmt::format("{} is no folder; expected one beside the file", plain_line(found.string())));
     return found;
+}
+
+/// What `new check` guessed and nobody took out of its list.
+std::string guesses_text(const JsonValue& scene) {
+    const auto todo = scene.find("todo");
+    const std::size_t left = todo ? todo->items().size() : 0;
+    return left == 0 ? "" : fmt::format("{} guess{} in its list \"todo\"", left, left == 1 ? "" : "es");
 }
 
 } // namespace
@@ -58,7 +65,7 @@ SystemScene load(const JsonValue& scene, const std::string& name, const SceneOpt
                   .passes = passes_without_twins(bound.passes),
                   .mistakes = {},
                   .start = std::move(start),
-                  .settings = "",
+                  .settings = guesses_text(scene),
                   .texts = {},
                   .keeps = bound.schema};
     return {.system = std::move(system), .passes = std::move(bound.passes)};

@@ -36,6 +36,8 @@ std::uint32_t word(double number, const text::BasicType& type) {
 }
 
 std::uint32_t read_number(const JsonValue& value, const text::BasicType& type) {
+    if (value.is_truth() && !type.is_real && !type.is_boolean) // of a block, where a bool is a uint
+        return value.truth() ? 1 : 0;
     if (type.is_boolean) {
         if (!value.is_truth())
             value.fail("is not true or false");
@@ -154,6 +156,14 @@ void UniformValues::add(const std::string& name, const text::BasicType& type, co
     element.elements = 0;
     for (std::size_t k = 0; k < items.size(); ++k)
         by_name_[fmt::format("{}[{}]", name, k)] = source_of(items[k], element);
+}
+
+void UniformValues::rename(const std::string& name, const std::string& other) {
+    std::map<std::string, std::function<UniformValue(int frame)>> more;
+    for (const auto& [known, value] : by_name_)
+        if (known == name || known.starts_with(name + "["))
+            more.emplace(other + known.substr(name.size()), value);
+    by_name_.merge(more);
 }
 
 Uniforms UniformValues::at(int frame) const {

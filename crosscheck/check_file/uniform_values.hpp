@@ -18,6 +18,9 @@ class UniformValues {
     /// frame, or { "frames": [value, ...] }, of which the last stays. Throws Error as JsonValue does.
     void add(const std::string& name, const text::BasicType& type, const JsonValue& value);
 
+    /// What `name`, or an element of it, has goes by `other` as well.
+    void rename(const std::string& name, const std::string& other);
+
     [[nodiscard]] Uniforms at(int frame) const;
 
   private:

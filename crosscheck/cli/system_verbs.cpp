@@ -213,6 +213,8 @@ std::span<const std::string_view> system_check_options() {
 
 int check_system(const RegisteredSystem& system, const RunOptions& given, const SystemCheck& asked) {
     RunOptions run = with_folders(system, given);
+    if (system.folders != nullptr && (asked.power || asked.rules.power_at_least > 0.0))
+        throw Error("check: --power: a check file has no mistakes with names; expected --cover-at-least");
     if (asked.rules.cover_at_least > 0.0 && run.shaders.empty())
         throw Error("check: --cover-at-least goes with shaders of one's own; expected --shaders DIR");
     SystemInput input(system, run, asked.trace, asked.render ? DrawnStages::vertex : DrawnStages::none);
@@ -359,6 +361,8 @@ int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& given, 
 
 int cut_system(const RegisteredSystem& system, const RunOptions& given, const SystemItem& item,
                const std::filesystem::path& trace, const std::filesystem::path& output) {
+    if (system.folders != nullptr)
+        throw Error("capsule cut: an item of a check file has no capsule; expected explain, or record and --trace");
     const RunOptions run = with_folders(system, given);
     SystemInput input(system, run, trace);
     static_cast<void>(place_of(item, input.system()));
@@ -454,7 +458,8 @@ const RegisteredSystem* system_of_recording(const std::filesystem::path& file) {
     for (const RegisteredSystem& system : registered_systems()) {
         if (system.name == name)
             return &system;
-        names.emplace_back(system.name);
+        if (system.name != own_system)
+            names.emplace_back(system.name);
     }
     throw Error(
         fmt::format("{}: a recording of system '{}', which is none of lockstep's: {}; the program of that system "

@@ -18,7 +18,7 @@ std::string_view name_of(const RegisteredSystem& system) { return system.name; }
 const RegisteredSystem* system_of_scene(const JsonValue& scene) {
     const auto value = scene.find("system");
     // A check file has passes, and need not say what it is.
-    if (!value && !scene.find("passes"))
+    if (!value && !scene.find("passes") && !scene.find("state"))
         return nullptr;
     const std::string name = value ? value->text() : std::string(own_system);
     if (name == default_system)
@@ -27,7 +27,8 @@ const RegisteredSystem* system_of_scene(const JsonValue& scene) {
     for (const RegisteredSystem& system : registered_systems()) {
         if (system.name == name)
             return &system;
-        names.emplace_back(system.name);
+        if (system.name != own_system) // which passes say
+            names.emplace_back(system.name);
     }
     if (const auto left_out = left_out_systems(); std::find(left_out.begin(), left_out.end(), name) != left_out.end())
         value->fail(fmt::format("this program is built without system {}; cmake -DLOCKSTEP_SYSTEMS adds it", name));

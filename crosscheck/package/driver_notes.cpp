@@ -36,7 +36,9 @@ std::optional<Departure> departure(const JudgedPass& judged, const TextDispatch&
     const auto differs = std::ranges::mismatch(gpu, text);
     if (differs.in1 == gpu.end() || !dispatch.writer(r, item)) // of several that write it any may be the last
         return {};
-    if (text != item_words(judged.reference, item)) {
+    // A twin has said what is legal; a text that is the reference has no sites, and may say nothing.
+    const bool has_twin = !judged.pass.sites(judged.input(), item, judged.profile).empty();
+    if (!has_twin || text != item_words(judged.reference, item)) {
         // Where sets are not followed, other bits than the text's may be as legal.
         const std::vector<ItemOutcome> outcomes = dispatch.outcomes(before, r, item, judged.known);
         if (outcomes.empty() || std::ranges::any_of(outcomes, [&](const ItemOutcome& outcome) {

@@ -14,6 +14,7 @@
 #include "gpu/spirv_module.hpp"
 #include "gpu/state_image.hpp"
 #include "reference/model/error.hpp"
+#include "reference/text/accesses.hpp"
 
 namespace lockstep {
 namespace {
@@ -100,8 +101,10 @@ namespace {
 std::vector<std::uint32_t> words_of_members(const text::Block& block, const Uniforms& given) {
     std::vector<std::uint32_t> words(block.words(0));
     for (const text::Block::Member& member : block.members) {
+        const bool has_block = member.name.starts_with(block.name + ".");
         const std::vector<std::uint32_t> values =
-            words_given(given, {.name = member.name, .cells = static_cast<std::uint32_t>(member.leaves.size())});
+            words_given(given, {.name = has_block ? member.name : block.name + "." + member.name,
+                                .cells = static_cast<std::uint32_t>(member.leaves.size())});
         for (std::size_t k = 0; k < std::min(values.size(), member.leaves.size()); ++k)
             words[member.leaves[k].word] = values[k];
     }
@@ -312,8 +315,9 @@ std::array<std::uint32_t, 3> PassText::groups(const PassInput& in) const {
     const auto over = [](std::size_t items, std::size_t of) {
         return static_cast<std::uint32_t>((items + of - 1) / of);
     };
-    if (pass_.groups)
-        return *pass_.groups;
+    if (pass_.size)
+        return {over((*pass_.size)[0], program_.group[0]), over((*pass_.size)[1], program_.group[1]),
+                over((*pass_.size)[2], program_.group[2])};
     if (pass_.indirect) {
         std::array<std::uint32_t, 3> counts{};
         for (int c = 0; c < 3; ++c)
@@ -422,8 +426,15 @@ void PassText::run(const PassInput& in, const Profile& profile, SystemState& aft
 }
 
 bool PassText::reads(std::uint8_t resource) const {
-    const auto is_read = [&](const Bound& one) { return one.kind == Bound::Kind::before && one.resource == resource; };
-    return std::ranges::any_of(blocks_, is_read) || std::ranges::any_of(images_, is_read);
+    const text::Accesses accesses = text::accesses_of(program_);
+    const auto is_read = [&](const std::vector<Bound>& all, const std::vector<text::Access>& made) {
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (all[k].resource == resource && made[k].is_read &&
+                (all[k].kind == Bound::Kind::before || all[k].kind == Bound::Kind::after))
+                return true;
+        return false;
+    };
+    return is_read(blocks_, accesses.blocks) || is_read(images_, accesses.images);
 }
 
 void PassText::run_into(const Input& input, const Profile& profile, text::Findings& findings, const How& how,

@@ -198,9 +198,8 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
                                                                  about.fields[c.field].scalar));
             for (const text::WrittenWord& word : one.written)
                 if (const std::optional<Component> c = component_at(resource, item, word.place)) {
-                    if (word.is_code)
-                        return {};
-                    outcome.values[place_of(about, *c)] = word.set_in(about.fields[c->field].scalar);
+                    outcome.values[place_of(about, *c)] =
+                        word.is_code ? word.set : word.set_in(about.fields[c->field].scalar);
                 }
             all.push_back(std::move(outcome));
         }

@@ -34,6 +34,17 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
                 return out.set(r.read(in_text, std::bit_cast<float>(word)));
         out.set(word);
     };
+    // GL leaves the last bits of a code's float open (GL 4.6, 2.3.5): drivers take its product with 1/255.
+    const auto read_texel = [&](C& out, std::uint32_t word, std::uint32_t image) {
+        const bool is_real = p_.images[image].is_real;
+        if constexpr (has_sets<R>) {
+            constexpr double two_ulps = 0x1p-22;
+            const double real = std::bit_cast<float>(word);
+            if (is_real && memory_.image(image).code == TexelMemory::Code::unorm8 && real > 0.0 && real < 1.0)
+                return out.set(r.between(Interval(real * (1.0 - two_ulps), real * (1.0 + two_ulps))));
+        }
+        set_read(out, word, is_real);
+    };
     const auto refuse_shared = [&] {
         refuse(s, "an invocation that shares what it computes is not run apart from others");
     };
@@ -113,7 +124,7 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
             if (own != nullptr)
                 *cell(s.out + c) = *own;
             else
-                set_read(*cell(s.out + c), base[c], p_.images[image].is_real);
+                read_texel(*cell(s.out + c), base[c], image);
         }
         return true;
     }
@@ -130,7 +141,7 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     case code::sample_texel: {
         const Memory::Texel sample = sampled(s, 0);
         for (std::uint32_t c = 0; c < s.n; ++c)
-            set_read(*cell(s.out + c), sample[c], p_.images[word_at(s.a)].is_real);
+            read_texel(*cell(s.out + c), sample[c], word_at(s.a));
         return true;
     }
     case code::atomic_shared:

@@ -53,7 +53,7 @@ TEST_CASE("arguments: a slip is told with what was meant; another word is not") 
     CHECK(says({"capsule", "shw"}) ==
           "unknown verb 'shw'; the verbs of capsule are cut, show; did you mean show?" + help_of("capsule"));
     CHECK(says({"new", "sistem"}) ==
-          "unknown verb 'sistem'; the verb of new is system; did you mean system?" + help_of("new"));
+          "unknown verb 'sistem'; the verbs of new are system, check; did you mean system?" + help_of("new"));
     CHECK(says({"capsule"}) == "a verb is missing; the verbs of capsule are cut, show" + help_of("capsule"));
     CHECK(says({"check", scene, "--freams=3"}) ==
           "unknown option '--freams=3'; did you mean --frames?" + help_of("check"));

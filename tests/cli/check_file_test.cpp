@@ -280,7 +280,7 @@ TEST_CASE("check file: a fragment stage draws an image, texel by texel") {
     INFO(said.out << said.err);
     CHECK(said.status == 0);
     CHECK_THAT(line(said, "verdict"), Contains("AGREE") || Contains("LEGAL"));
-    CHECK_THAT(said.out, Contains("compared  105 floats of cells, 420 of slopes"));
+    CHECK_THAT(said.out, Contains("compared  105 floats of cells texels, 420 of slopes texels"));
     fs::create_directory(made.folder.path() / "reference");
     std::string other = spread;
     other.replace(other.find("p - 1"), 5, "p - 2");
@@ -299,7 +299,7 @@ TEST_CASE("check file: a fragment stage draws an image, texel by texel") {
     CHECK_THAT(refusal(Made(inputs, {{"spread.frag", "in vec2 v_At;\n" + spread.substr(0, spread.find("colour = ")) +
                                                          "colour = vec4(v_At, u_Step, own);\n}\n"}})
                            .check()),
-               Contains("nothing is given for input v_At; expected gl_FragCoord alone"));
+               Contains("/passes/0: nothing is given for input v_At of "));
     inputs["state"]["cells"]["format"] = "rgba8";
     CHECK_THAT(refusal(Made(inputs, {{"spread.frag", spread}}).check()),
                Contains("/state/cells: is what colour of ") &&
@@ -372,6 +372,95 @@ TEST_CASE("check file: an item that is not written in two copies is found, and a
     CHECK_THAT(outside.out + outside.err, Contains("past the end") || Contains("outside"));
 }
 
+TEST_CASE("check file: two copies of which some items are not made are refused") {
+    if (!have_software_gl())
+        return;
+    const Example boids("boids");
+    json document = json::parse(std::ifstream(boids.file()));
+    document["passes"][0]["groups"] = {2};
+    std::ofstream(boids.file()) << document.dump();
+    CHECK_THAT(refusal(run("check", boids.file(), {"--frames", "2"})),
+               Contains("frame 0: boids did not write boids item 128"));
+    // A reference of another group size runs as many invocations.
+    document["passes"][0]["groups"] = {4};
+    std::ofstream(boids.file()) << document.dump();
+    CHECK(run("check", boids.file(), {"--frames", "2"}).status == 0);
+}
+
+TEST_CASE("check file: uniform blocks without an instance, truths in them, and fields of one name in two buffers") {
+    if (!have_software_gl())
+        return;
+    const json document{{"state",
+                         {{"old", {{"count", 8}, {"start", {{"place", {{"index", {1, 2}}}}, {"kind", 3}}}}},
+                          {"made", {{"count", 8}, {"start", {{"place", 1}, {"made_kind", 4}}}}}}},
+                        {"uniforms", {{"dt", 0.5}, {"Params.scale", {2, 4}}, {"is_on", true}, {"turn", {0, 1, -1, 0}}}},
+                        {"passes", {{{"shader", "step.comp"}, {"bind", {{"Old", "old"}, {"Made", "made"}}}}}}};
+    const Made made(document,
+                    {{"step.comp", "layout(local_size_x = 8) in;\n"
+                                   "struct Item { float place; int kind; };\n"
+                                   "layout(std430) readonly buffer Old { Item old[]; };\n"
+                                   "layout(std430) buffer Made { Item made[]; };\n"
+                                   "layout(std140) uniform Params { float dt; vec2 scale; bool is_on; mat2 turn; };\n"
+                                   "void main() {\n"
+                                   "    uint i = gl_GlobalInvocationID.x;\n"
+                                   "    vec2 at = turn * scale;\n"
+                                   "    made[i].place += is_on ? old[i].place * dt + at.y : -1.0;\n"
+                                   "    made[i].kind += old[i].kind;\n"
+                                   "}\n"}});
+    const Outcome said = made.check();
+    INFO(said.out << said.err);
+    CHECK(said.status == 0);
+    CHECK_THAT(line(said, "verdict"), Contains("AGREE: every bit of") || Contains("LEGAL"));
+    const std::string json_file = (made.folder.path() / "r.json").string();
+    CHECK(made.check({"--json", json_file}).status == 0);
+    CHECK_THAT(json::parse(std::ifstream(json_file)).dump(), Contains("made_place"));
+}
+
+TEST_CASE("check file: 8-bit and half formats are legal where GL rounds as it likes") {
+    if (!have_software_gl())
+        return;
+    const Made made({{"state",
+                      {{"codes", {{"size", {16, 16}}, {"format", "rgba8"}, {"start", {{"random", {0, 256}}}}}},
+                       {"sums", {{"count", 256}}},
+                       {"halves", {{"size", {16, 16}}, {"format", "r16f"}, {"start", 0.1}}}}},
+                     {"passes",
+                      {{{"shader", "sums.comp"}, {"bind", {{"u_Codes", "codes"}, {"Sums", "sums"}}}},
+                       {{"shader", "codes.comp"}, {"bind", {{"u_Codes", "codes"}}}},
+                       {{"shader", "halves.comp"}, {"bind", {{"u_Halves", "halves"}}}}}}},
+                    {{"sums.comp", "layout(local_size_x = 16) in;\n"
+                                   "layout(rgba8) readonly uniform image2D u_Codes;\n"
+                                   "layout(std430) buffer Sums { vec4 sums[]; };\n"
+                                   "void main() { uint i = gl_GlobalInvocationID.x;\n"
+                                   "    sums[i] = imageLoad(u_Codes, ivec2(i % 16u, i / 16u)) + 1.0; }\n"},
+                     {"codes.comp", "layout(local_size_x = 8, local_size_y = 8) in;\n"
+                                    "layout(rgba8) uniform image2D u_Codes;\n"
+                                    "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy);\n"
+                                    "    vec4 own = imageLoad(u_Codes, p);\n"
+                                    "    imageStore(u_Codes, p, own.yxwz * 0.9 + own * 0.05); }\n"},
+                     {"halves.comp", "layout(local_size_x = 8, local_size_y = 8) in;\n"
+                                     "layout(r16f) uniform image2D u_Halves;\n"
+                                     "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy);\n"
+                                     "    imageStore(u_Halves, p, imageLoad(u_Halves, p) + 0.3); }\n"}});
+    const Outcome said = made.check();
+    INFO(said.out << said.err);
+    CHECK(said.status == 0);
+}
+
+TEST_CASE("check file: what it has no meaning for is refused") {
+    const Made made(doubled(), {{"double.comp", doubling}});
+    CHECK_THAT(refusal(run_lockstep({"check", made.file, "--power-at-least", "50%"})),
+               Contains("expected --cover-at-least"));
+    CHECK_THAT(
+        refusal(run_lockstep({"capsule", "cut", made.file, "--frame", "0", "--item", "1", "-o", made.file + ".c"})),
+        Contains("an item of a check file has no capsule"));
+    for (const char* option : {"--particles", "--preset"})
+        CHECK_THAT(
+            refusal(run_lockstep({"check", made.file, option, std::string(option) == "--preset" ? "paper" : "5"})),
+            Contains(option));
+    CHECK_THAT(refusal(run_lockstep({"check", made.folder.write("empty.json", R"({"state": {}})").string()})),
+               Contains("the key \"passes\"") || Contains("/state: has no entry"));
+}
+
 TEST_CASE("new check: a file from what shaders declare, which runs at once") {
     if (!have_software_gl())
         return;
@@ -440,6 +529,10 @@ TEST_CASE("check file: what does not fit is refused with its place, and nothing 
         {"/passes/0/groups", {1, 2, 3, 4}, "/passes/0/groups: 4 numbers; expected 1 to 3"},
         {"/passes/0/groups", 4, "/passes/0/groups: "},
         {"/passes/0/groups", {0}, "/passes/0/groups/0: 0 is not"},
+        {"/passes/0/groups",
+         {65535, 65535, 65535},
+         "/passes/0/groups: 281462092005375 groups; expected at most 100000000"},
+        {"/reference", "", "is no folder; expected one beside the file"},
         {"/passes/0/uniforms/u_By", {1, 2}, "/passes/0/uniforms/u_By: "},
         {"/passes/0/uniforms/u_By", true, "/passes/0/uniforms/u_By: "},
         {"/passes/0/uniforms/u_By", {{"frames", json::array()}}, "/passes/0/uniforms/u_By/frames: has no value"},

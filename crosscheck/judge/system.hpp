@@ -45,7 +45,7 @@ struct System {
     SystemState start;
     std::string settings;                                     ///< as a report has them
     std::vector<std::shared_ptr<const PassSteps>> texts = {}; ///< of each pass, or of none
-    std::shared_ptr<const Schema> keeps = {}; ///< the schema, where nobody else keeps it
+    std::shared_ptr<const Schema> keeps = {};                 ///< the schema, where nobody else keeps it
 };
 
 /// Of the shader of a pass; null: it is not known.

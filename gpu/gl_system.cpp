@@ -19,8 +19,7 @@ namespace lockstep {
 namespace {
 
 void check_stage(const GlPass& pass, const Schema& schema) {
-    const bool is_full_screen = pass.draw && pass.draw->full_screen;
-    if (is_full_screen && pass.stage == Stage::fragment && pass.resource < schema.resources.size() &&
+    if (pass.stage == Stage::fragment && pass.draw && pass.resource < schema.resources.size() &&
         schema.resources[pass.resource].dimensions == 2)
         return;
     if (pass.stage != Stage::vertex && pass.stage != Stage::compute)
@@ -109,11 +108,10 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         std::vector<Stage> used{pass.stage};
         if (pass.draw && pass.draw->has_geometry)
             used.push_back(Stage::geometry);
-        if (pass.draw && !pass.draw->full_screen)
+        if (pass.draws_vertices())
             used.push_back(Stage::fragment);
         const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
-        const bool is_full_screen = pass.draw && pass.draw->full_screen;
-        const bool says = lockstep::says_precise(is_full_screen ? stages.back() : stages.front());
+        const bool says = lockstep::says_precise(pass.stage == Stage::fragment ? stages.back() : stages.front());
         parts_->says_precise = parts_->says_precise && says;
         parts_->says_precise_once = parts_->says_precise_once || says;
         const std::vector<Capture> captures =
@@ -166,7 +164,7 @@ std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span
         input.defines.emplace_back("LOCKSTEP_TRACE", "1");
     std::vector<ShaderSource> all =
         load_stages(shader_folders(shaders, schema->system), pass.name, stages, input.defines, input.texts);
-    if (pass.draw && pass.draw->full_screen)
+    if (pass.stage == Stage::fragment)
         all.insert(all.begin(), load_stage(shader_folders({}, {}), "full_screen", Stage::vertex));
     if (!pass.uniform_blocks.empty())
         for (ShaderSource& stage : all) {

@@ -68,9 +68,6 @@ struct GlDraw {
     std::size_t vertices = 0;  ///< of an instance, gl_VertexID; then each item is an instance. 0: each is a vertex
     bool has_geometry = false; ///< there is a NAME.geom
     bool once = false;         ///< one instance without attributes, of `vertices`
-    /// One triangle over the whole image, by a vertex stage that lockstep has (full_screen.vert): NAME.frag alone is
-    /// the pass's, of Stage::fragment. Fragments that are discarded leave their texel as it was.
-    bool full_screen = false;
     std::size_t instances = 0; ///< how often the items, each a vertex, are drawn: gl_InstanceID. 0: once
 };
 
@@ -88,7 +85,9 @@ struct GlDraw {
 /// place, by atomics, in a copy of what the pass before left. A vertex pass of an image draws it (`draw`).
 struct GlPass {
     std::string name;
-    Stage stage = Stage::vertex; ///< or compute; fragment of a draw over the full screen
+    /// Or compute; or fragment: its draw is one triangle over the whole image, by a vertex stage that lockstep has
+    /// (full_screen.vert). Fragments that are discarded leave their texel as it was.
+    Stage stage = Stage::vertex;
     std::uint8_t resource = 0;
     /// What its uniforms are in a frame; u_ItemCount is set by itself. May be empty.
     std::function<Uniforms(int frame)> uniforms = {};
@@ -123,6 +122,8 @@ struct GlPass {
     /// How a uniform that nothing is given for gets a value, for messages; empty: by bindings.json.
     std::string advice = {};
 
+    /// Whether it draws by vertices of its own, whose places a fixed function makes pixels of: no text says these.
+    [[nodiscard]] bool draws_vertices() const { return draw && stage != Stage::fragment; }
     /// Whether the shader may leave items out of a buffer in two copies.
     [[nodiscard]] bool keeps() const { return (invocations && names.empty()) || indirect; }
 };

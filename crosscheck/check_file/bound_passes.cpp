@@ -292,11 +292,7 @@ class Binder {
         if (written.empty())
             text.entry.place.fail(fmt::format("{} writes no entry of the state", text.file));
         if (pass.stage == Stage::fragment)
-            pass.draw = GlDraw{.primitive = GlDraw::Primitive::triangles,
-                               .clears = false,
-                               .vertices = 3,
-                               .once = true,
-                               .full_screen = true};
+            pass.draw = GlDraw{.primitive = GlDraw::Primitive::triangles, .clears = false, .vertices = 3, .once = true};
         if (text.entry.groups) {
             pass.size = *text.entry.groups;
             for (std::size_t axis = 0; axis < 3; ++axis)

@@ -1,8 +1,5 @@
 #include "crosscheck/check_file/document.hpp"
 
-#include <set>
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "crosscheck/files/plain_text.hpp"

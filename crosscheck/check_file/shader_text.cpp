@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/check_file/value_words.hpp"
 #include "crosscheck/text/glsl_module.hpp"
 
 namespace lockstep::check_file {
@@ -27,10 +28,6 @@ std::string suffix_of(std::string_view member) {
 std::string field_name(const std::string& member) {
     const std::size_t dot = member.find('.');
     return suffix_of(dot == std::string::npos ? std::string_view(member) : std::string_view(member).substr(dot + 1));
-}
-
-Scalar scalar_of(const text::BasicType& type) {
-    return type.is_real ? Scalar::float32 : type.is_signed ? Scalar::int32 : Scalar::uint32;
 }
 
 /// A field for each vector of a member: columns of matrices and elements of arrays by themselves.

@@ -1,7 +1,6 @@
 #include "crosscheck/check_file/start_values.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/check_file/value_words.hpp"
 #include "crosscheck/files/number_table.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "reference/half.hpp"
@@ -19,31 +19,6 @@
 
 namespace lockstep::check_file {
 namespace {
-
-std::uint32_t bits_of(float number) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &number, sizeof bits);
-    return bits;
-}
-
-std::uint32_t read_word(const JsonValue& value, Scalar scalar) {
-    switch (scalar) {
-    case Scalar::float32:
-        return bits_of(value.number());
-    case Scalar::int32:
-        return static_cast<std::uint32_t>(
-            value.integer(std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()));
-    default:
-        return static_cast<std::uint32_t>(value.integer(0, std::numeric_limits<std::uint32_t>::max()));
-    }
-}
-
-/// Of a number that was computed; whole numbers are rounded down.
-std::uint32_t word_of(double number, Scalar scalar) {
-    return scalar == Scalar::float32 ? bits_of(static_cast<float>(number))
-           : scalar == Scalar::int32 ? static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(number)))
-                                     : static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(number)));
-}
 
 std::vector<std::uint32_t> read_words(const JsonValue& value, const Field& field) {
     if (field.components == 1 && !value.is_array())

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/check_file/value_words.hpp"
+
 namespace lockstep::check_file {
 namespace {
 
@@ -24,17 +26,6 @@ std::string type_text(const text::BasicType& type) {
     return type.is_boolean ? "bool" : type.is_real ? "float" : type.is_signed ? "int" : "uint";
 }
 
-std::uint32_t word(double number, const text::BasicType& type) {
-    if (type.is_real) {
-        const auto rounded = static_cast<float>(number);
-        std::uint32_t bits = 0;
-        std::memcpy(&bits, &rounded, sizeof bits);
-        return bits;
-    }
-    return type.is_signed ? static_cast<std::uint32_t>(static_cast<std::int32_t>(number))
-                          : static_cast<std::uint32_t>(number);
-}
-
 std::uint32_t read_number(const JsonValue& value, const text::BasicType& type) {
     if (value.is_truth() && !type.is_real && !type.is_boolean) // of a block, where a bool is a uint
         return value.truth() ? 1 : 0;
@@ -43,15 +34,7 @@ std::uint32_t read_number(const JsonValue& value, const text::BasicType& type) {
             value.fail("is not true or false");
         return value.truth() ? 1 : 0;
     }
-    if (type.is_real) {
-        const float number = value.number();
-        std::uint32_t bits = 0;
-        std::memcpy(&bits, &number, sizeof bits);
-        return bits;
-    }
-    return static_cast<std::uint32_t>(type.is_signed ? value.integer(std::numeric_limits<std::int32_t>::min(),
-                                                                     std::numeric_limits<std::int32_t>::max())
-                                                     : value.integer(0, std::numeric_limits<std::uint32_t>::max()));
+    return read_word(value, scalar_of(type));
 }
 
 /// Of no array.
@@ -119,7 +102,7 @@ std::function<UniformValue(int)> growing(const JsonValue& value, const text::Bas
     const double step = number(value.at("frame"));
     const auto from = value.find("from");
     return [step, start = from ? number(*from) : 0.0, type](int frame) {
-        const Words words{word(start + step * frame, type)};
+        const Words words{word_of(start + step * frame, scalar_of(type))};
         return type.is_real     ? of_words<float>(words)
                : type.is_signed ? of_words<int>(words)
                                 : of_words<unsigned>(words);

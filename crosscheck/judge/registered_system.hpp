@@ -67,8 +67,8 @@ struct RegisteredSystem {
     /// Reads a scene: all keys of the file but "system" and "description", `options` on top. `name`: the scene's.
     /// Throws Error as load_scene does.
     SystemScene (*load)(const JsonValue& scene, const std::string& name, const SceneOptions& options);
-    /// Those that a scene names, or means; `file`: where it lies. Throws Error as load does. Null: scenes name none, their
-    /// shaders are shipped and their reference is twins.
+    /// Those that a scene names, or means; `file`: where it lies. Throws Error as load does. Null: scenes name none,
+    /// their shaders are shipped and their reference is twins.
     SceneFolders (*folders)(const JsonValue& scene, const std::filesystem::path& file) = nullptr;
 };
 

@@ -103,7 +103,7 @@ TextNotes shader_findings(const ShadedSystem& of, const OwnTexts& own,
     std::vector<WatchedText> texts(of.passes.size());
     std::vector<std::string> lines;
     for (std::size_t p = 0; p < of.passes.size(); ++p)
-        if ((!of.passes[p].draw || of.passes[p].draw->full_screen) && !of.passes[p].continues && (own[p] || shaders))
+        if (!of.passes[p].draws_vertices() && !of.passes[p].continues && (own[p] || shaders))
             try {
                 texts[p].text = own[p]
                                     ? own[p]
@@ -113,8 +113,8 @@ TextNotes shader_findings(const ShadedSystem& of, const OwnTexts& own,
                 if (shaders)
                     texts[p].left = covered == CoveredRuns::all ? 2'000'000 : 20'000;
             } catch (const Error& error) {
-                lines.push_back(fmt::format("text of {}.{} not looked into: {}", of.passes[p].name,
-                                            of.passes[p].stage == Stage::compute ? "comp" : "vert", error.what()));
+                lines.push_back(fmt::format("text of {}{} not looked into: {}", of.passes[p].name,
+                                            extension(of.passes[p].stage), error.what()));
             }
     if (std::none_of(texts.begin(), texts.end(), [](const WatchedText& one) { return one.text != nullptr; }))
         return {lines, {}};

@@ -33,9 +33,6 @@ std::shared_ptr<const PassText> text_of(const ShadedSystem& of, std::size_t p, c
                                             of.arithmetic);
 }
 
-/// A compute pass, a vertex pass whose outputs are captured, or a draw over the full screen.
-bool has_text(const GlPass& pass) { return !pass.draw || pass.draw->full_screen; }
-
 /// The pass that dispatches what pass p takes an output of: p itself, or the one that it continues.
 std::size_t lead_of(const ShadedSystem& of, std::size_t p) {
     while (p > 0 && of.passes[p].continues)
@@ -74,7 +71,7 @@ std::vector<PassStages> stages_of(const std::vector<GlPass>& passes, ArithmeticS
         stages.push_back({pass.name, {pass.stage}, {input}});
         if (pass.draw && pass.draw->has_geometry)
             stages.back().stages.push_back(Stage::geometry);
-        if (pass.draw && !pass.draw->full_screen)
+        if (pass.draws_vertices())
             stages.back().stages.push_back(Stage::fragment);
     }
     return stages;
@@ -100,7 +97,7 @@ References take_references(const ShadedSystem& of, const ShaderUse& references, 
     std::vector<std::unique_ptr<ItemPass>>& passes = of.system.passes;
     for (std::size_t p = 0; p < passes.size();) {
         const std::size_t end = end_of_dispatch(of.system, p);
-        if (!has_text(of.passes[p]) || !is_own(references, of.passes[p])) {
+        if (of.passes[p].draws_vertices() || !is_own(references, of.passes[p])) {
             p = end;
             continue;
         }
@@ -126,7 +123,7 @@ OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const st
     const ShaderFolders folders = shader_folders(shaders, of.system.schema.system);
     for (std::size_t p = 0; p < of.passes.size(); ++p) {
         const std::size_t lead = lead_of(of, p);
-        if (!has_text(of.passes[lead]) || !is_own(use, of.passes[lead]))
+        if (of.passes[lead].draws_vertices() || !is_own(use, of.passes[lead]))
             continue;
         try {
             if (lead == p)
@@ -147,7 +144,7 @@ OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const st
 std::shared_ptr<const PassText> text_of_pass(const ShadedSystem& of, std::size_t p,
                                              const std::filesystem::path& shaders) {
     const std::size_t lead = lead_of(of, p);
-    if (!has_text(of.passes[lead]))
+    if (of.passes[lead].draws_vertices())
         return nullptr;
     std::shared_ptr<const PassText> text = text_of(of, lead, shader_folders(shaders, of.system.schema.system));
     return is_made_again(made_before(of, p), *text) ? text : nullptr;
@@ -158,7 +155,7 @@ void show_texts(const ShadedSystem& of, const std::filesystem::path& shaders) {
     of.system.texts.resize(of.passes.size());
     for (std::size_t p = 0; p < of.passes.size(); ++p) {
         const std::size_t lead = lead_of(of, p);
-        if (!has_text(of.passes[lead]))
+        if (of.passes[lead].draws_vertices())
             continue;
         of.system.texts[p] = steps_of_text(
             of.system.passes[p]->resource(), [&schema, pass = of.passes[lead], written = written_by(of.system, lead),

@@ -22,7 +22,7 @@ namespace {
 std::shared_ptr<const ShaderSource> source_of(const GlPass& pass, const ShaderFolders& folders,
                                               ArithmeticSwitch arithmetic) {
     const StageInput input = stage_input(pass, arithmetic);
-    if (pass.draw && !pass.draw->full_screen)
+    if (pass.draws_vertices())
         throw Error(fmt::format("{}: a pass that draws is not interpreted", pass.name));
     const std::array stages{pass.stage};
     return std::make_shared<ShaderSource>(load_stages(folders, pass.name, stages, input.defines, input.texts).front());

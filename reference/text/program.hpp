@@ -82,8 +82,6 @@ struct BasicType {
     bool is_real = true, is_boolean = false, is_signed = false;
     std::uint32_t rows = 1, columns = 1;
     std::uint32_t elements = 0; ///< of an array; 0: it is none
-
-    [[nodiscard]] std::uint32_t cells() const { return rows * columns * (elements == 0 ? 1 : elements); }
 };
 
 /// Where the text binds a block or an image. The elements of an array of them are told apart: by modules GL, which

@@ -21,6 +21,7 @@ struct KnownRaster {
     bool point_window_accurate = false;
     bool corner_window_accurate = false;
 
+    bool operator==(const KnownRaster&) const = default;
     static constexpr KnownRaster all() { return {true, true, true, true, true, true, true, true, true}; }
     [[nodiscard]] bool triangles() const { return triangle_window && triangle_grid && triangle_sides; }
     [[nodiscard]] bool points() const {
@@ -43,6 +44,7 @@ struct KnownOperations {
     DriverConverts converts = {};   ///< what is stored as the driver rounds it
     bool factors_reordered = false; ///< a product of products may be taken in another order, in spite of `precise`
 
+    bool operator==(const KnownOperations&) const = default;
     static constexpr KnownOperations all() {
         return {true, true, true, true, true, true, true, KnownRaster::all(), true};
     }

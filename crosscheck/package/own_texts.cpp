@@ -52,7 +52,7 @@ void SystemTexts::take_shaders(const std::filesystem::path& folder, const std::f
 
 TextNotes SystemTexts::notes(SystemSide& side, const KnownOperations& known, CheckReport& report,
                              CoveredRuns covered) const {
-    TextNotes notes{.lines = references_.lines, .coverage = {}};
+    TextNotes notes{.lines = references_.lines, .findings = {}, .coverage = {}};
     if (own_) {
         DivergentPass divergence(of_.system, side, known, report);
         std::ranges::move(driver_notes(of_, own_->texts, own_->folder, divergence), std::back_inserter(notes.lines));

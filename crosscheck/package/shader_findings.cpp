@@ -117,7 +117,7 @@ TextNotes shader_findings(const ShadedSystem& of, const OwnTexts& own,
                                             extension(of.passes[p].stage), error.what()));
             }
     if (std::none_of(texts.begin(), texts.end(), [](const WatchedText& one) { return one.text != nullptr; }))
-        return {lines, {}};
+        return {lines, {}, {}};
     ReferenceRun run(system, profile);
     const int looked_at = examined_frames(system, frames);
     const auto goes_on = [](const WatchedText& one) { return one.text != nullptr && one.left > 0; };
@@ -147,12 +147,17 @@ TextNotes shader_findings(const ShadedSystem& of, const OwnTexts& own,
             }
             run.step_pass(p, frame);
         }
+    std::vector<ShortFinding> in_short;
     for (const WatchedText& watched : texts)
-        for (const text::Finding& found : watched.findings.all())
-            lines.push_back(line_of(watched.text->program(), found));
+        for (const text::Finding& found : watched.findings.all()) {
+            const text::Program& program = watched.text->program();
+            lines.push_back(line_of(program, found));
+            in_short.push_back({program.line_name(found.place.line), found.rule, text::is_race(found)});
+        }
     std::sort(lines.begin(), lines.end());
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-    return {std::move(lines), shaders ? coverage_of(texts, *shaders) : std::vector<TextCoverage>()};
+    return {std::move(lines), std::move(in_short),
+            shaders ? coverage_of(texts, *shaders) : std::vector<TextCoverage>()};
 }
 
 std::vector<std::string> reference_notes(const ShadedSystem& of, const OwnTexts& references, const Profile& profile,
@@ -167,15 +172,19 @@ std::vector<std::string> reference_notes(const ShadedSystem& of, const OwnTexts&
 
 namespace {
 
-/// What passed may not the next time where a race was found in the shader's text.
-void note_race(CheckReport& report, const std::vector<std::string>& findings) {
+/// What passed may not the next time, or elsewhere, where the shader's text does what GLSL gives no result for.
+void note_findings(CheckReport& report, const std::vector<ShortFinding>& findings) {
     if (report.verdict != Verdict::agree && report.verdict != Verdict::legal)
         return;
-    for (const std::string& line : findings)
-        if (const std::size_t rule = line.find(fmt::format(": {}", text::race_rule)); rule != std::string::npos) {
-            report.untried.push_back(fmt::format("{} races with another invocation", line.substr(0, rule)));
-            return;
-        }
+    const auto race = std::ranges::find(findings, true, &ShortFinding::is_race);
+    const auto first = race != findings.end() ? race : findings.begin();
+    if (first == findings.end() || std::ranges::any_of(report.untried, [&](const std::string& known) {
+            return known.starts_with(first->place + " ");
+        }))
+        return;
+    report.untried.push_back(first->is_race ? fmt::format("{} races with another invocation", first->place)
+                                            : fmt::format("{} has a result that GLSL leaves open: {}", first->place,
+                                                          first->rule.substr(0, first->rule.find(" (GL"))));
 }
 
 } // namespace
@@ -184,7 +193,7 @@ TextNotes text_notes(const ShadedSystem& of, const OwnShaders& own, DivergentPas
                      CoveredRuns covered) {
     TextNotes notes =
         shader_findings(of, own.texts, own.folder, divergence.side().describe().profile, report.frames, covered);
-    note_race(report, notes.lines);
+    note_findings(report, notes.findings);
     for (const std::string& line : lines_without_counterpart(of, own.texts, own.use, own.reference, divergence))
         notes.lines.push_back("without a counterpart in the reference: " + line);
     return notes;

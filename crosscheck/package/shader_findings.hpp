@@ -12,9 +12,17 @@
 
 namespace lockstep {
 
+/// Where a text does what GLSL does not allow, or gives no value, and by which rule.
+struct ShortFinding {
+    std::string place; ///< FILE:LINE
+    std::string rule;
+    bool is_race = false;
+};
+
 /// Notes on texts, and what the runs of them covered.
 struct TextNotes {
     std::vector<std::string> lines;
+    std::vector<ShortFinding> findings; ///< that lines are of
     std::vector<TextCoverage> coverage;
 };
 
@@ -49,7 +57,7 @@ struct OwnShaders {
 };
 
 /// What the texts of a run's own shaders say: shader_findings, and where it is DIVERGENT lines_without_counterpart. A
-/// race limits a green verdict (CheckReport::untried).
+/// finding limits a green verdict (CheckReport::untried).
 TextNotes text_notes(const ShadedSystem& of, const OwnShaders& own, DivergentPass& divergence, CheckReport& report,
                      CoveredRuns covered);
 

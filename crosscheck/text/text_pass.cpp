@@ -175,10 +175,19 @@ std::optional<std::vector<std::uint32_t>> TextDispatch::words_by(const View& bef
     return is_written ? std::optional(std::move(all)) : std::nullopt;
 }
 
+const text::DispatchOutcomes& TextDispatch::outcomes_by(const KnownOperations& known, text::Constants constants) const {
+    const std::scoped_lock lock(outcomes_mutex_);
+    for (const auto& one : outcomes_)
+        if (one->dispatch().known == known && one->dispatch().constants == constants)
+            return *one;
+    return *outcomes_.emplace_back(std::make_unique<text::DispatchOutcomes>(
+        text_.outcomes(), input_.bindings,
+        text::JudgedDispatch{input_.groups, stage_of(text_.pass()), profile_, known, constants}));
+}
+
 std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t resource, std::size_t item,
                                                 const KnownOperations& known, text::Constants constants) const {
     run();
-    const PassStage stage = stage_of(text_.pass());
     const std::optional<std::uint32_t> by = writer(resource, item);
     if (!by)
         return {};
@@ -186,10 +195,9 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
     const std::vector<Component> parts = components(about);
     std::vector<ItemOutcome> all;
     try {
-        const std::vector<text::GivenInput> inputs = text_.inputs_of(input_, *by);
         for (text::InvocationOutcome& one :
-             text_.outcomes().of(text_.invocation(input_, *by), input_.groups, input_.bindings, stage, profile_,
-                                 text_.is_per_item() ? known : in_compute_stage(known, profile_), constants, inputs)) {
+             outcomes_by(text_.is_per_item() ? known : in_compute_stage(known, profile_), constants)
+                 .of(text_.invocation(input_, *by), text_.inputs_of(input_, *by))) {
             ItemOutcome outcome{.values = {}, .open = std::move(one.open), .undefined = one.undefined};
             for (const Component& c : parts)
                 outcome.values.push_back(one.undefined != Undefined::none

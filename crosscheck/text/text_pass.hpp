@@ -56,6 +56,10 @@ class TextDispatch {
     mutable std::once_flag ran_;
     mutable std::vector<std::vector<std::uint32_t>> written_; ///< PassText::Input::words behind it
     mutable text::Writers writers_;
+    [[nodiscard]] const text::DispatchOutcomes& outcomes_by(const KnownOperations& known,
+                                                            text::Constants constants) const;
+    mutable std::mutex outcomes_mutex_;
+    mutable std::vector<std::unique_ptr<text::DispatchOutcomes>> outcomes_; ///< one for each way that was asked for
 };
 
 /// The passes of one dispatch that a text makes, instead of their twins, which say all that is no arithmetic:

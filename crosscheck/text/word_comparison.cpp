@@ -34,12 +34,9 @@ ByInvocation differing_words(std::span<const ComparedWords> all, WordComparison&
 }
 
 /// Whether one of an invocation's outcomes has all of its words. Throws Error for what is not followed by sets.
-bool allows(const BoundStage& text, const text::Outcomes& outcomes, const JudgedBy& by, std::uint32_t invocation,
+bool allows(const BoundStage& text, const text::DispatchOutcomes& outcomes, std::uint32_t invocation,
             std::span<const ComparedWord> words) {
-    const std::vector<text::GivenInput> inputs = text.inputs(invocation);
-    const std::vector<text::InvocationOutcome> all =
-        outcomes.of(text.invocation(invocation), text.groups, text.bindings, by.stage, text.profile, by.known,
-                    text::Constants::rounded, inputs);
+    const std::vector<text::InvocationOutcome> all = outcomes.of(text.invocation(invocation), text.inputs(invocation));
     return std::ranges::any_of(all, [&](const text::InvocationOutcome& outcome) {
         return outcome.undefined != Undefined::none || std::ranges::all_of(words, [&](const ComparedWord& one) {
                    const auto word = std::ranges::find(outcome.written, one.place, &text::WrittenWord::place);
@@ -90,7 +87,8 @@ WordComparison compare_words(const BoundStage& text, std::span<const ComparedWor
     const ByInvocation differing = differing_words(all, made);
     if (!by.judges)
         return made;
-    const text::Outcomes outcomes(text.program);
+    const text::Outcomes by_text(text.program);
+    const text::DispatchOutcomes outcomes(by_text, text.bindings, {text.groups, by.stage, text.profile, by.known});
     std::size_t judged = 0;
     for (const auto& [invocation, words] : differing) {
         try {
@@ -98,7 +96,7 @@ WordComparison compare_words(const BoundStage& text, std::span<const ComparedWor
                 throw Error(by.why_not);
             if (invocation && judged++ == by.most)
                 throw Error(fmt::format("they are of more than {} invocations", by.most));
-            if (invocation && allows(text, outcomes, by, *invocation, words)) {
+            if (invocation && allows(text, outcomes, *invocation, words)) {
                 made.legal += words.size();
                 continue;
             }

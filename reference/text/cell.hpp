@@ -13,6 +13,7 @@
 #include "reference/readings/values.hpp"
 #include "reference/text/invocation.hpp"
 #include "reference/text/word_range.hpp"
+#include "reference/undefined.hpp"
 
 namespace lockstep::text {
 
@@ -124,5 +125,15 @@ struct Cell<R> {
 };
 
 template <class R> using WrittenWords = std::map<WrittenPlace, Cell<R>>;
+
+/// What an invocation of a group may find where others of it write.
+struct GroupWord {
+    WordRange words = {};                  ///< of an integer; of one float its bits
+    std::optional<Interval> set = {};      ///< of a float; nothing: an integer, or one word of either
+    Undefined undefined = Undefined::none; ///< then anything
+    [[nodiscard]] bool is_one_word() const {
+        return undefined == Undefined::none && (set ? set->is_point() : words.more == 0);
+    }
+};
 
 } // namespace lockstep::text

@@ -189,6 +189,9 @@ std::uint32_t Decoder::leaves_of(const Address& of, std::uint32_t type_id) {
             p_.leaves.push_back({c * of.matrix.stride / word_bytes, true});
     else
         lay(module_, type_id, 0, of.matrix, p_.leaves);
+    if (of.space == Address::Space::shared) // cell after cell
+        for (std::uint32_t c = 0; first + c < p_.leaves.size(); ++c)
+            p_.leaves[first + c].word = c;
     return first;
 }
 
@@ -198,7 +201,7 @@ void Decoder::load_from(const Address& from, std::uint32_t out, std::uint32_t ty
         refuse("a texel's pointer is loaded; expected an atomic operation on it");
     const bool is_fixed = from.space == Address::Space::variable && from.dynamic == none;
     const std::uint32_t offset = is_fixed ? 0 : offset_cell(from);
-    const std::uint32_t leaves = from.space == Address::Space::block ? leaves_of(from, type_id) : 0;
+    const std::uint32_t leaves = from.space != Address::Space::variable ? leaves_of(from, type_id) : 0;
     Step& step = add(is_fixed                                 ? code::copy
                      : from.space == Address::Space::variable ? code::load_variable
                      : from.space == Address::Space::shared   ? code::load_shared
@@ -214,7 +217,7 @@ void Decoder::store_to(const Address& to, std::uint32_t from, std::uint32_t type
     const auto n = static_cast<std::uint16_t>(type(type_id).cells);
     const bool is_fixed = to.space == Address::Space::variable && to.dynamic == none;
     const std::uint32_t offset = is_fixed ? 0 : offset_cell(to);
-    const std::uint32_t leaves = to.space == Address::Space::block ? leaves_of(to, type_id) : 0;
+    const std::uint32_t leaves = to.space != Address::Space::variable ? leaves_of(to, type_id) : 0;
     Step& step = add(is_fixed                               ? code::copy
                      : to.space == Address::Space::variable ? code::store_variable
                      : to.space == Address::Space::shared   ? code::store_shared

@@ -1,8 +1,10 @@
 #include "reference/text/dispatch.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -163,29 +165,38 @@ bool run_dispatch(const Program& given, const Dispatch& dispatch, const Bindings
     return races.has_handed_on();
 }
 
-GroupMemory remembered_group(const Program& program, const std::array<std::uint32_t, 3>& groups,
-                             const Bindings& bindings, const Profile& profile, std::uint32_t group) {
-    constexpr std::size_t most_words = std::size_t{1} << 24U;
+namespace {
+
+/// A copy of what is bound.
+struct OwnBindings {
+    std::vector<std::vector<std::uint32_t>> words; // several blocks may have one's
+    Bindings bindings;
+
+    explicit OwnBindings(const Bindings& from) : bindings(from) {
+        words.reserve(from.blocks.size() + from.images.size());
+        for (std::size_t b = 0; b < from.blocks.size(); ++b) {
+            words.emplace_back(from.blocks[b].begin(), from.blocks[b].end());
+            bindings.blocks[b] = words.back();
+            for (std::size_t a = 0; a < b; ++a)
+                if (from.blocks[a].data() == from.blocks[b].data())
+                    bindings.blocks[b] = bindings.blocks[a].first(from.blocks[b].size());
+        }
+        for (std::size_t i = 0; i < from.images.size(); ++i) {
+            words.emplace_back(from.images[i].words.begin(), from.images[i].words.end());
+            bindings.images[i].words = words.back();
+        }
+    }
+    OwnBindings(const OwnBindings&) = delete;
+    OwnBindings& operator=(const OwnBindings&) = delete;
+};
+
+/// Runs one group. `before_each(memory)`: before each stretch.
+template <class BeforeEach> void run_one_group(const Program& program, const std::array<std::uint32_t, 3>& groups,
+                                               const Bindings& own, const Profile& profile, std::uint32_t group,
+                                               Memory& memory, const BeforeEach& before_each) {
     const FlushSubnormals guard{profile.compute_flush_subnormals,
                                 profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
-    GroupMemory made;
-    std::vector<std::vector<std::uint32_t>> words; // several blocks may have one's
-    words.reserve(bindings.blocks.size() + bindings.images.size());
-    Bindings own = bindings;
-    for (std::size_t b = 0; b < bindings.blocks.size(); ++b) {
-        words.emplace_back(bindings.blocks[b].begin(), bindings.blocks[b].end());
-        own.blocks[b] = words.back();
-        for (std::size_t a = 0; a < b; ++a)
-            if (bindings.blocks[a].data() == bindings.blocks[b].data())
-                own.blocks[b] = own.blocks[a].first(bindings.blocks[b].size());
-    }
-    for (std::size_t i = 0; i < bindings.images.size(); ++i) {
-        words.emplace_back(bindings.images[i].words.begin(), bindings.images[i].words.end());
-        own.images[i].words = words.back();
-    }
-    Findings ignored;
     TextValues values(profile);
-    Memory memory(program, own, ignored, nullptr);
     const std::uint32_t size = program.invocations();
     std::vector<std::unique_ptr<Run>> parts;
     std::vector<Invocation> invocations;
@@ -196,12 +207,24 @@ GroupMemory remembered_group(const Program& program, const std::array<std::uint3
         }
         invocations.push_back(invocation_of(program, groups, group * size + i));
     }
+    run_group(program, memory, parts, invocations, before_each);
+}
+
+} // namespace
+
+GroupMemory remembered_group(const Program& program, const std::array<std::uint32_t, 3>& groups,
+                             const Bindings& bindings, const Profile& profile, std::uint32_t group) {
+    constexpr std::size_t most_words = std::size_t{1} << 24U;
+    GroupMemory made;
+    const OwnBindings own(bindings);
+    Findings ignored;
+    Memory memory(program, own.bindings, ignored, nullptr);
     std::size_t kept = 0;
     const auto remember = [&] {
         GroupMemory::Moment& now = made.moments.emplace_back();
-        for (const std::span<std::uint32_t>& block : own.blocks)
+        for (const std::span<std::uint32_t>& block : own.bindings.blocks)
             now.words.emplace_back(block.begin(), block.end());
-        for (const TexelMemory& image : own.images)
+        for (const TexelMemory& image : own.bindings.images)
             now.words.emplace_back(image.words.begin(), image.words.end());
         for (std::uint32_t w = 0; w < program.shared; ++w)
             now.shared.push_back(memory.load_shared(w, {}));
@@ -210,9 +233,41 @@ GroupMemory remembered_group(const Program& program, const std::array<std::uint3
         if (kept + now.shared.size() > most_words)
             throw Error(fmt::format("group {}: its barriers are too many to keep what lies between them", group));
     };
-    run_group(program, memory, parts, invocations, remember);
+    run_one_group(program, groups, own.bindings, profile, group, memory, remember);
     remember();
     return made;
+}
+
+std::vector<std::vector<GroupWrite>> group_writes(const Program& program, const std::array<std::uint32_t, 3>& groups,
+                                                  const Bindings& bindings, const Profile& profile,
+                                                  std::uint32_t group) {
+    using Space = WrittenPlace::Space;
+    const OwnBindings own(bindings);
+    Findings ignored;
+    std::vector<std::pair<WrittenPlace, std::uint32_t>> writes;
+    Writers writers{.writes = &writes};
+    Memory memory(program, own.bindings, ignored, nullptr, &writers);
+    std::vector<std::vector<GroupWrite>> stretches;
+    const auto gather = [&] {
+        std::map<WrittenPlace, std::uint32_t> last(writes.begin(), writes.end());
+        for (const auto& [place, by] : writes)
+            last[place] = by;
+        std::vector<GroupWrite>& now = stretches.emplace_back();
+        for (const auto& [place, by] : last)
+            now.push_back({place,
+                           place.space == Space::shared ? memory.load_shared(static_cast<std::uint32_t>(place.word), {})
+                           : place.space == Space::block ? own.bindings.blocks[place.number][place.word]
+                                                         : own.bindings.images[place.number].words[place.word],
+                           by});
+        writes.clear();
+    };
+    bool is_first = true;
+    run_one_group(program, groups, own.bindings, profile, group, memory, [&] {
+        if (!std::exchange(is_first, false))
+            gather();
+    });
+    gather();
+    return stretches;
 }
 
 } // namespace lockstep::text

@@ -26,6 +26,16 @@ struct GroupMemory {
 GroupMemory remembered_group(const Program& program, const std::array<std::uint32_t, 3>& groups,
                              const Bindings& bindings, const Profile& profile, std::uint32_t group);
 
+/// A word that a stretch of a group between two barriers writes, once: as the stretch leaves it, and by whom last.
+struct GroupWrite {
+    WrittenPlace place;
+    std::uint32_t word = 0, invocation = 0;
+};
+/// What the stretches of one group of a dispatch write. What `bindings` name stays as it is.
+std::vector<std::vector<GroupWrite>> group_writes(const Program& program, const std::array<std::uint32_t, 3>& groups,
+                                                  const Bindings& bindings, const Profile& profile,
+                                                  std::uint32_t group);
+
 /// run_traced of one of the group's invocations, from its start to the end of the stretch that begins at
 /// moments[stretch]. Returns what it wrote in that stretch, shared words too; without a stretch it runs to its end, and
 /// shared words are left out. What the others do behind a barrier is as they did it, whatever is forced; an atomic

@@ -25,12 +25,13 @@ struct GivenInput {
 
 /// Where an invocation wrote a word.
 struct WrittenPlace {
-    /// Changed: by an atomic operation, with its operand as the word; what comes of it others share in.
-    enum class Space : std::uint8_t { block, shared, texel, output, changed_block, changed_texel };
+    /// Changed: by atomic operations, with what tells their operands as the word; what comes of it others share in.
+    enum class Space : std::uint8_t { block, shared, texel, output, changed_block, changed_texel, changed_shared };
     Space space = Space::block;
     std::uint32_t number = 0; ///< of the block or image
     std::uint64_t word = 0;   ///< in it; of an image its texels' components, row after row; of outputs the cell
     [[nodiscard]] bool is_of_block() const { return space == Space::block || space == Space::changed_block; }
+    [[nodiscard]] bool is_of_group() const { return space == Space::shared || space == Space::changed_shared; }
     [[nodiscard]] bool is_of_image() const { return space == Space::texel || space == Space::changed_texel; }
     friend auto operator<=>(const WrittenPlace&, const WrittenPlace&) = default;
 };

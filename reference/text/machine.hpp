@@ -62,6 +62,8 @@ template <class R, int W> class Machine {
     /// Of a traced reading whose invocation is one of a group that shares: is called at each barrier, and has memory be
     /// what the others leave there. False: it ends there.
     void meet(std::function<bool()> others) { others_ = std::move(others); }
+    /// Of sets in such a group: what lies where others have written; null: nobody has.
+    void find(std::function<const GroupWord*(const WrittenPlace&)> of_others) { of_others_ = std::move(of_others); }
     /// At most W.
     void start(std::span<const Invocation> invocations);
     /// Until each has ended, or waits at a barrier.
@@ -289,6 +291,7 @@ template <class R, int W> class Machine {
     std::array<std::uint8_t, W> is_discarded_{};
     WrittenWords<R>* written_ = nullptr;
     std::function<bool()> others_; ///< empty: it shares nothing
+    std::function<const GroupWord*(const WrittenPlace&)> of_others_;
     Trace* noted_ = nullptr;
     std::span<const ForcedRow> forced_;
     struct PendingRow {

@@ -10,12 +10,13 @@ namespace lockstep::text {
 
 template <class R, int W> WrittenPlace Machine<R, W>::atomic_place(const Step& s) {
     using Space = WrittenPlace::Space;
+    const bool is_done = others_ && !has_sets<R>; // else what it makes is not known
     if (s.op == code::atomic_shared)
-        return {Space::shared, 0, cell(s.b)->word()};
+        return {is_done ? Space::shared : Space::changed_shared, 0, cell(s.b)->word()};
     if (s.op == code::atomic_block)
-        return {others_ ? Space::block : Space::changed_block, s.a, cell(s.b)->word()};
+        return {is_done ? Space::block : Space::changed_block, s.a, cell(s.b)->word()};
     const std::uint32_t image = cell(s.a)->word();
-    return {others_ ? Space::texel : Space::changed_texel, image,
+    return {is_done ? Space::texel : Space::changed_texel, image,
             first_word(memory_.image(image), texel_place(s.b, p_.images[image].shape.axes(), 0))};
 }
 
@@ -33,6 +34,22 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
             if (is_real)
                 return out.set(r.read(in_text, std::bit_cast<float>(word)));
         out.set(word);
+    };
+    const auto set_found = [&](C& out, const GroupWord& found, bool is_real) {
+        if constexpr (has_sets<R>) {
+            if (found.is_one_word())
+                return set_read(out, found.words.first, is_real);
+            if (is_real)
+                return out.set(found.undefined != Undefined::none ? r.anything(found.undefined)
+                               : found.set                        ? r.between(*found.set)
+                                           : r.between(word_range::floats(found.words).value_or(Interval::anything())));
+            if (found.set)
+                return out.set_bits_of(r.between(*found.set), r);
+            out.set(found.undefined != Undefined::none ? WordRange{0, ~std::uint32_t{0}} : found.words, r);
+        }
+    };
+    const auto of_others = [&](const WrittenPlace& place) -> const GroupWord* {
+        return of_others_ ? of_others_(place) : nullptr;
     };
     // GL leaves the last bits of a code's float open (GL 4.6, 2.3.5): drivers take its product with 1/255.
     const auto read_texel = [&](C& out, std::uint32_t word, std::uint32_t image) {
@@ -58,7 +75,8 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
         if (found({stored, place.number, place.word}) != nullptr)
             refuse_shared();
         const bool has_operand = s.n != spv::OpAtomicIIncrement && s.n != spv::OpAtomicIDecrement;
-        (*written_)[place].set(has_operand ? word_at(s.c) : 1U);
+        C& operands = (*written_)[place];
+        operands.set(31 * operands.word() + (has_operand ? word_at(s.c) : 1U));
     };
     const auto texel = [&](std::uint32_t image, std::uint32_t first,
                            std::uint32_t axes) -> std::optional<std::uint64_t> {
@@ -69,18 +87,22 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     switch (s.op) {
     case code::load_shared:
         for (std::uint32_t c = 0; c < s.n; ++c) {
-            const C* const own = found({Space::shared, 0, word_at(s.b) + c});
-            if (own != nullptr)
+            const WrittenPlace at{Space::shared, 0, word_at(s.b) + c};
+            if (found({Space::changed_shared, 0, at.word}) != nullptr)
+                refuse_shared();
+            if (const C* const own = found(at))
                 *cell(s.out + c) = *own;
+            else if (const GroupWord* const other = of_others(at))
+                set_found(*cell(s.out + c), *other, p_.leaves[s.d + c].is_real);
             else if constexpr (has_sets<R>)
-                *cell(s.out + c) = C{};
+                set_read(*cell(s.out + c), 0, p_.leaves[s.d + c].is_real);
             else
                 cell(s.out + c)->set(memory_.load_shared(word_at(s.b) + c, place(s, 0)));
         }
         return true;
     case code::store_shared:
         for (std::uint32_t c = 0; c < s.n; ++c)
-            (*written_)[{Space::shared, 0, word_at(s.b) + c}] = *cell(s.c + c);
+            write({Space::shared, 0, word_at(s.b) + c}, *cell(s.c + c), p_.leaves[s.d + c].is_real);
         return true;
     case code::load_block:
         for (std::uint32_t c = 0; c < s.n; ++c) {
@@ -91,6 +113,8 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
                 refuse_shared();
             if (const C* const own = found({Space::block, s.a, at}))
                 *cell(s.out + c) = *own;
+            else if (const GroupWord* const other = of_others({Space::block, s.a, at}))
+                set_found(*cell(s.out + c), *other, leaf.is_real);
             else
                 set_read(*cell(s.out + c), at < words.size() ? words[at] : 0U, leaf.is_real);
         }
@@ -118,11 +142,14 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
             if (at && found({Space::changed_texel, image, *at + c}) != nullptr)
                 refuse_shared();
             const C* const own = at ? found({Space::texel, image, *at + c}) : nullptr;
-            if (own != nullptr && memory_.image(image).code != TexelMemory::Code::number)
+            const GroupWord* const other = at && own == nullptr ? of_others({Space::texel, image, *at + c}) : nullptr;
+            if ((own != nullptr || other != nullptr) && memory_.image(image).code != TexelMemory::Code::number)
                 refuse(s,
                        "an invocation that reads what it wrote of a half or rgba8 image is not run apart from others");
             if (own != nullptr)
                 *cell(s.out + c) = *own;
+            else if (other != nullptr)
+                set_found(*cell(s.out + c), *other, p_.images[image].is_real);
             else
                 read_texel(*cell(s.out + c), base[c], image);
         }
@@ -164,13 +191,16 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
                     cell(s.out)->set(before);
                 return true;
             }
-        if (s.out != no_cell || s.op == code::atomic_shared)
+        if (s.out != no_cell || (s.op == code::atomic_shared && !others_))
             refuse_shared();
-        const bool is_inside_memory = s.op == code::atomic_block
+        const bool is_inside_memory = s.op == code::atomic_shared ? word_at(s.b) < p_.shared
+                                      : s.op == code::atomic_block
                                           ? word_at(s.b) < memory_.words(s.a).size()
                                           : texel(word_at(s.a), s.b, p_.images[word_at(s.a)].shape.axes()).has_value();
         if (is_inside_memory)
-            change(atomic_place(s), s.op == code::atomic_block ? Space::block : Space::texel);
+            change(atomic_place(s), s.op == code::atomic_shared  ? Space::shared
+                                    : s.op == code::atomic_block ? Space::block
+                                                                 : Space::texel);
         return true;
     }
     default:

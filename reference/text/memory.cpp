@@ -207,9 +207,12 @@ void Memory::store_texel(std::uint32_t number, const std::array<std::int32_t, 3>
     touch_texel(number, at, Races::How::write, by);
     put_texel(number, at, texel);
     const TexelMemory& image = bindings_.images[number];
-    if (writers_ != nullptr && is_inside(image, at))
-        std::fill_n(writers_->images[image_of_[number]].begin() + static_cast<std::ptrdiff_t>(first_word(image, at)),
-                    image.components, by.invocation + 1);
+    if (writers_ == nullptr || !is_inside(image, at))
+        return;
+    for (std::uint32_t c = 0; c < image.components; ++c)
+        note_write({WrittenPlace::Space::texel, number, first_word(image, at) + c}, by);
+    std::fill_n(writers_->images[image_of_[number]].begin() + static_cast<std::ptrdiff_t>(first_word(image, at)),
+                image.components, by.invocation + 1);
 }
 
 } // namespace lockstep::text

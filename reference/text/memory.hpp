@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reference/text/findings.hpp"
+#include "reference/text/invocation.hpp"
 #include "reference/text/program.hpp"
 #include "reference/text/races.hpp"
 
@@ -40,7 +41,9 @@ struct TexelMemory {
 
 /// Who wrote last, of each word of blocks and of each word of images; 0: nobody, else the invocation's number and 1.
 struct Writers {
-    std::vector<std::vector<std::uint32_t>> blocks, images;
+    std::vector<std::vector<std::uint32_t>> blocks = {}, images = {};
+    /// Each word that is written, shared ones and those that atomic operations change too, by whom; null: nobody asks.
+    std::vector<std::pair<WrittenPlace, std::uint32_t>>* writes = nullptr;
 };
 
 /// What lies outside of invocations, by number in the program.
@@ -93,6 +96,7 @@ class Memory {
             return;
         }
         put(words[word], value);
+        note_write({WrittenPlace::Space::block, block, word}, by);
         if (writers_ != nullptr)
             writers_->blocks[buffer_of_[block]][word] = by.invocation + 1;
     }
@@ -102,6 +106,7 @@ class Memory {
     }
     void store_shared(std::uint32_t word, std::uint32_t value, Place by) {
         touch_shared(word, Races::How::write, by);
+        note_write({WrittenPlace::Space::shared, 0, word}, by);
         if (word < shared_.size())
             put(shared_[word], value);
         else
@@ -132,12 +137,14 @@ class Memory {
         touch_block(block, word, Races::How::atomic, by);
         if (word >= words.size())
             return outside_block(block, word, by);
+        note_write({WrittenPlace::Space::block, block, word}, by);
         return put(words[word], change(words[word]));
     }
     template <class Change> std::uint32_t atomic_shared(std::uint32_t word, Place by, const Change& change) {
         touch_shared(word, Races::How::atomic, by);
         if (word >= shared_.size())
             return outside_shared(by);
+        note_write({WrittenPlace::Space::shared, 0, word}, by);
         return put(shared_[word], change(shared_[word]));
     }
     template <class Change> std::uint32_t atomic_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at,
@@ -146,11 +153,17 @@ class Memory {
         const std::uint32_t before = texel[0];
         texel[0] = change(before);
         put_texel(image, at, texel);
+        if (is_inside(bindings_.images[image], at))
+            note_write({WrittenPlace::Space::texel, image, first_word(bindings_.images[image], at)}, by);
         touch_texel(image, at, Races::How::atomic, by);
         return before;
     }
 
   private:
+    void note_write(const WrittenPlace& place, Place by) {
+        if (writers_ != nullptr && writers_->writes != nullptr)
+            writers_->writes->emplace_back(place, by.invocation);
+    }
     /// Returns what was there before.
     std::uint32_t put(std::uint32_t& word, std::uint32_t value) {
         changes_ += word != value ? 1 : 0;

@@ -1,7 +1,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "reference/known_operations.hpp"
@@ -51,11 +54,47 @@ class Outcomes {
                                                     const KnownOperations& known,
                                                     Constants constants = Constants::rounded,
                                                     std::span<const GivenInput> inputs = {}) const;
+    /// All outcomes of each invocation of a group that shares memory, by its number in the group. What another leaves
+    /// behind a barrier is any word that it may leave there. Throws Error by FILE:LINE for what is not followed by
+    /// sets.
+    [[nodiscard]] std::vector<std::vector<InvocationOutcome>>
+    of_group(std::uint32_t group, std::array<std::uint32_t, 3> groups, const Bindings& bindings, const Profile& profile,
+             const KnownOperations& known, Constants constants = Constants::rounded) const;
+    [[nodiscard]] const Program& program() const { return program_; }
 
   private:
     const Program& program_;
     std::vector<Site> sites_;
     std::vector<const Site*> site_of_step_;
+};
+
+/// What the outcomes of a dispatch rest on.
+struct JudgedDispatch {
+    std::array<std::uint32_t, 3> groups{1, 1, 1};
+    PassStage stage = PassStage::compute; ///< that the text runs in
+    Profile profile = {};
+    KnownOperations known = {};
+    Constants constants = Constants::rounded;
+};
+
+/// The outcomes of invocations of a dispatch, which are followed group by group where they share memory: what was
+/// followed is kept. Any number of threads may ask.
+class DispatchOutcomes {
+  public:
+    /// `of` and `bindings` outlive it.
+    DispatchOutcomes(const Outcomes& of, const Bindings& bindings, JudgedDispatch dispatch)
+        : of_(of), bindings_(bindings), dispatch_(std::move(dispatch)) {}
+    [[nodiscard]] const JudgedDispatch& dispatch() const { return dispatch_; }
+    /// Throws Error by FILE:LINE for what is not followed by sets.
+    [[nodiscard]] std::vector<InvocationOutcome> of(const Invocation& invocation,
+                                                    std::span<const GivenInput> inputs = {}) const;
+
+  private:
+    const Outcomes& of_;
+    const Bindings& bindings_;
+    JudgedDispatch dispatch_;
+    mutable std::mutex mutex_;
+    mutable std::map<std::uint32_t, std::vector<std::vector<InvocationOutcome>>> groups_;
 };
 
 } // namespace lockstep::text

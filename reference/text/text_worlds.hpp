@@ -151,6 +151,10 @@ class TextWorlds : public Worlds<PlainArithmetic> {
     Real between(Interval set) {
         return make({}, [&](const auto&) { return set; });
     }
+    Real anything(Undefined why) {
+        return make(
+            {}, [](const auto&) { return Interval::anything(); }, why);
+    }
     /// Which of a word and the `more` after it: of a few, each is a way.
     std::uint32_t one_of(std::uint32_t more) {
         if (more > most_floats)

@@ -372,6 +372,42 @@ TEST_CASE("check file: an item that is not written in two copies is found, and a
     CHECK_THAT(outside.out + outside.err, Contains("past the end") || Contains("outside"));
 }
 
+TEST_CASE(
+    "check file: a group that shares memory is followed by sets, and what it has no value for limits the verdict") {
+    if (!have_software_gl())
+        return;
+    const auto tile = [](const std::string& statements) {
+        return std::pair<std::string, std::string>{
+            "tile.comp",
+            "layout(local_size_x = 16) in;\nlayout(std430) buffer Data { float x[]; };\nshared float t[16];\n"
+            "void main() {\n    uint l = gl_LocalInvocationID.x, i = gl_GlobalInvocationID.x;\n" +
+                statements + "}\n"};
+    };
+    const json document{{"state", {{"Data", {{"count", 64}, {"start", {{"random", {0.1, 2}}}}}}}},
+                        {"passes", {{{"shader", "tile.comp"}}}}};
+    // A power is not rounded as the text's is, and goes on through the memory of the group.
+    const std::string powers = "    t[l] = pow(x[i], 0.7);\n    barrier();\n"
+                               "    x[i] = t[l] * 0.5 + t[(l + 1u) % 16u] * 0.25 + pow(t[(l + 2u) % 16u], 1.3);\n";
+    const Outcome legal = Made(document, {tile(powers)}).check();
+    INFO(legal.out << legal.err);
+    CHECK(legal.status == 0);
+    CHECK_THAT(line(legal, "verdict"), Contains("LEGAL") || Contains("AGREE"));
+    CHECK_THAT(line(legal, "verdict"), !Contains("but"));
+    const Made slip(document,
+                    {tile("    t[l] = pow(x[i], 0.7);\n    barrier();\n"
+                          "    x[i] = t[l] * 0.5 + t[(l + 2u) % 16u] * 0.25 + pow(t[(l + 2u) % 16u], 1.3);\n")});
+    fs::create_directory(slip.folder.path() / "reference");
+    slip.folder.write("reference/tile.comp", "#version 450 core\n" + tile(powers).second);
+    const Outcome wrong = slip.check({"--reference", (slip.folder.path() / "reference").string()});
+    CHECK(wrong.status == 1);
+    CHECK_THAT(line(wrong, "verdict"), Contains("DIVERGENT"));
+    const Outcome unset =
+        Made(document, {tile("    if (l != 3u)\n        t[l] = x[i];\n    barrier();\n    x[i] = t[15u - l];\n")})
+            .check();
+    CHECK_THAT(line(unset, "verdict"),
+               Contains("but tile.comp:10 has a result that GLSL leaves open: use of a shared variable"));
+}
+
 TEST_CASE("check file: two copies of which some items are not made are refused") {
     if (!have_software_gl())
         return;

@@ -173,7 +173,19 @@ TEST_CASE("examine --reference: what groups share is held to the reference's bit
                              "shared float s[32];\nvoid main() {\n    uint i = gl_LocalInvocationIndex;\n"
                              "    s[i] = x[gl_GlobalInvocationID.x];\n    barrier();\n"
                              "    x[gl_GlobalInvocationID.x] = s[i] + s[31u - i];\n}\n";
-    const Outcome bits = texts.compared(replaced(sums, "31u - i", "30u - min(i, 30u)"), sums);
+    const Outcome wrong = texts.compared(replaced(sums, "31u - i", "30u - min(i, 30u)"), sums);
+    INFO(wrong.out << wrong.err);
+    CHECK(wrong.status == 1);
+    CHECK_THAT(wrong.out, Contains("verdict   DIVERGENT: ") && !Contains("held to the reference's bits"));
+    // What lies behind a barrier is any of its legal words: here products that may be fused with the sum.
+    const std::string products = replaced(sums, "= x[gl_GlobalInvocationID.x];", "= x[gl_GlobalInvocationID.x] * 1.1;");
+    const Outcome fused = texts.compared(replaced(products, "s[i] + s[31u - i]", "s[31u - i] + s[i]"), products);
+    CHECK(fused.status == 0);
+    const std::string order = replaced(sums, "    barrier();\n",
+                                       "    barrier();\n    if (atomicAdd(n, 1u) > 90u)\n"
+                                       "        s[i] *= 3.0;\n    barrier();\n");
+    const std::string counted = replaced(order, "shared float", "buffer Counts { uint n; };\nshared float");
+    const Outcome bits = texts.compared(replaced(counted, "s[i] + s[31u - i]", "s[i] + s[30u - min(i, 30u)]"), counted);
     INFO(bits.out << bits.err);
     CHECK(bits.status == 1);
     CHECK_THAT(bits.out, Contains("note      ") && Contains(" words are held to the reference's bits: shader "));

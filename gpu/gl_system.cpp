@@ -164,8 +164,10 @@ std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span
         input.defines.emplace_back("LOCKSTEP_TRACE", "1");
     std::vector<ShaderSource> all =
         load_stages(shader_folders(shaders, schema->system), pass.name, stages, input.defines, input.texts);
-    if (pass.stage == Stage::fragment)
+    if (pass.stage == Stage::fragment) {
+        all.back().places = pass.places;
         all.insert(all.begin(), load_stage(shader_folders({}, {}), "full_screen", Stage::vertex));
+    }
     if (!pass.uniform_blocks.empty())
         for (ShaderSource& stage : all) {
             Bindings bound = stage.bindings != nullptr ? *stage.bindings : Bindings{};

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gpu/desktop_text.hpp"
 #include "gpu/gl_system_parts.hpp"
 #include "reference/model/error.hpp"
 
@@ -105,6 +106,9 @@ void GlSystem::Parts::draw(const Linked& linked) {
     const GlVertexArray vertices = how.once           ? GlVertexArray()
                                    : how.vertices > 0 ? instance_array(one, linked.program)
                                                       : vertex_array(*one[0], linked.program);
+    if (!pass.places.empty())
+        linked.program.set(texel_size_uniform,
+                           glm::vec2(1.0F / static_cast<float>(width), 1.0F / static_cast<float>(height)));
     check_given(linked);
     linked.program.use();
     gl::BindVertexArray(vertices.id());

@@ -14,6 +14,7 @@
 
 #include "gpu/bindings.hpp"
 #include "gpu/check.hpp"
+#include "gpu/desktop_text.hpp"
 #include "gpu/glsl_type.hpp"
 #include "gpu/nothing_given.hpp"
 #include "gpu/program_linking.hpp"
@@ -44,7 +45,11 @@ std::vector<Capture> by_their_names(std::span<const Capture> captured, const Bin
 
 /// The stages as GL takes them: SPIR-V alone, or GLSL alone, into which modules beside GLSL are translated.
 std::vector<ShaderSource> as_gl_takes(std::span<const ShaderSource> given) {
-    std::vector<ShaderSource> stages(given.begin(), given.end());
+    std::vector<ShaderSource> stages;
+    for (const ShaderSource& stage : given)
+        stages.push_back(stage.module == nullptr && (!stage.places.empty() || is_other_dialect(stage.text))
+                             ? in_desktop_glsl(stage)
+                             : stage);
     const auto in_spirv = [](const ShaderSource& stage) { return stage.module != nullptr; };
     const bool all = std::all_of(stages.begin(), stages.end(), in_spirv);
     if (all && !takes_spirv())

@@ -15,6 +15,7 @@
 
 #include "gpu/any_dialect.hpp"
 #include "gpu/data_folder.hpp"
+#include "gpu/old_glsl.hpp"
 #include "gpu/shader_bounds.hpp"
 #include "gpu/shader_words.hpp"
 #include "gpu/shaders_read_once.hpp"
@@ -242,7 +243,7 @@ class Assembly {
             return std::move(source_);
         }
         append(path, text);
-        if (!has_version_ && !takes_any_dialect_)
+        if (!has_version_ && !takes_any_dialect_ && !says_old_glsl(source_.text))
             throw Error(fmt::format("shader {}:1: no #version line; GLSL 330 or later is needed", shown(path)));
         for (auto one = defines_.rbegin(); !has_version_ && one != defines_.rend(); ++one) {
             source_.text.insert(0, fmt::format("#define {} {}\n", one->first, one->second));
@@ -283,7 +284,7 @@ class Assembly {
             }
             append_line(line, origin.value_or(ShaderSource::Origin{file, number}));
             if (const auto version = directive(line, "version"); version && !has_version_) {
-                if (!takes_any_dialect_)
+                if (!takes_any_dialect_ && file > 0)
                     check_version(*version, fmt::format("shader {}:{}: ", shown(path), number));
                 has_version_ = true;
                 for (const auto& [name, value] : defines_)

@@ -79,6 +79,8 @@ struct ShaderSource {
     std::vector<std::string> files; ///< the stage's own file first; shipped ones as "shaders/NAME", wherever they lie
     std::shared_ptr<const Bindings> bindings = {};  ///< beside the stage's own file, else beside one that it includes
     std::shared_ptr<const SpirvModule> module = {}; ///< a stage in SPIR-V, which has no text; null: GLSL
+    /// Inputs of a full-screen fragment stage that are its place in the image, 0 to 1: gl_FragCoord.xy times 1 / size.
+    std::vector<std::string> places = {};
 };
 
 /// Whether a stage says `precise` of something.

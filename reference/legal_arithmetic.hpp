@@ -56,14 +56,6 @@ template <class A> class LegalArithmetic {
         };
         return flushed(ends(subtract(a.low, b.high), subtract(a.high, b.low)));
     }
-    /// Of two that may be sums, of these terms each.
-    [[nodiscard]] Interval difference_of_sums(std::initializer_list<Interval> a,
-                                              std::initializer_list<Interval> b) const {
-        std::vector<Interval> terms(a);
-        for (const Interval& term : b)
-            terms.push_back(interval::negate(term));
-        return loose_sum(terms);
-    }
 
     /// Unless `precise`, the real product, rounded or not: what a fused operation adds to.
     [[nodiscard]] Interval product(Interval a, Interval b) const {

@@ -12,6 +12,7 @@
 #include "crosscheck/check_file/uniform_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/made_up_world.hpp"
+#include "gpu/old_glsl.hpp"
 #include "gpu/state_image.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
@@ -151,22 +152,48 @@ class Binder {
             if (use.access.is_written || document_.state[use.entry].dimensions == 1)
                 text.entry.place.fail(
                     fmt::format("{} has {} beside its output; expected samplers alone", text.file, use.name));
-        for (const text::StageVariable& input : text.program.stage_inputs)
-            if (!input.builtin && input.is_read)
-                text.entry.place.fail(fmt::format("nothing is given for input {} of {}; expected gl_FragCoord alone",
-                                                  input.name, text.file));
+        check_inputs(text);
         for (const text::StageVariable& output : text.program.stage_outputs) {
             if (output.builtin)
                 continue;
-            known.insert(output.name);
-            const std::size_t e = entry_of(text, output.name, "output");
+            const std::string name = old_name(output.name);
+            known.insert(name);
+            const std::size_t e = entry_of(text, name, "output");
             const StateEntry& entry = document_.state[e];
             if (entry.dimensions != 2 || entry.format.find("32") == std::string::npos)
-                entry.place.fail(
-                    fmt::format("is what {} of {} draws; expected an image of two sides in a format of 32 bits",
-                                output.name, text.file));
-            uses.push_back({output.name, e, {.is_written = true}, false, true});
+                entry.place.fail(fmt::format(
+                    "is what {} of {} draws; expected an image of two sides in a format of 32 bits", name, text.file));
+            uses.push_back({name, e, {.is_written = true}, false, true});
         }
+    }
+
+    /// Each that the text reads is given, as its place in the image.
+    static void check_inputs(const TextOfPass& text) {
+        std::set<std::string> known;
+        for (const text::StageVariable& input : text.program.stage_inputs) {
+            if (input.builtin)
+                continue;
+            known.insert(input.name);
+            const auto given = text.entry.inputs.find(input.name);
+            const bool is_vec2 = input.is_real && input.cells == 2 && input.components == 2;
+            if (given != text.entry.inputs.end() && !is_vec2)
+                given->second.fail(
+                    fmt::format("{} of {} is no vec2, as a place in the image is", input.name, text.file));
+            if (given == text.entry.inputs.end() && input.is_read)
+                text.entry.place.fail(
+                    is_vec2
+                        ? fmt::format(
+                              "nothing is given for input {0} of {1}; expected \"inputs\": {{ \"{0}\": \"uv\" }}, "
+                              "its place in the image",
+                              input.name, text.file)
+                        : fmt::format("nothing is given for input {} of {}; expected gl_FragCoord, or a vec2 that is "
+                                      "its place in the image",
+                                      input.name, text.file));
+        }
+        for (const auto& [name, value] : text.entry.inputs)
+            if (!known.contains(name))
+                value.fail(fmt::format("{} has no input {}{}", text.file, plain_line(name),
+                                       did_you_mean(name, {known.begin(), known.end()})));
     }
 
     void take_record(std::size_t e, const TextOfPass& text, const text::Block& block) {
@@ -300,6 +327,8 @@ class Binder {
         }
         if (text.entry.invocations)
             pass.invocations = [count = *text.entry.invocations](int) { return count; };
+        for (const auto& [name, value] : text.entry.inputs)
+            pass.places.push_back(name);
         pass.advice = "\"uniforms\" of the check file gives it";
         set_uniforms(text, of_all, pass);
         for (const std::size_t e : written) {

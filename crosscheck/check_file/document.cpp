@@ -50,7 +50,7 @@ StateEntry read_entry(const std::string& name, const JsonValue& entry) {
 }
 
 PassEntry read_pass(const JsonValue& pass) {
-    pass.check_keys({"shader", "bind", "groups", "invocations", "uniforms"});
+    pass.check_keys({"shader", "bind", "groups", "invocations", "uniforms", "inputs"});
     const JsonValue shader = pass.at("shader");
     const fs::path file = shader.text();
     PassEntry made{.name = file.stem().string(), .place = pass};
@@ -82,6 +82,14 @@ PassEntry read_pass(const JsonValue& pass) {
     if (invocations)
         made.invocations = static_cast<std::size_t>(invocations->integer(1, most_items));
     made.uniforms = pass.find("uniforms");
+    if (const auto inputs = pass.find("inputs")) {
+        if (made.stage != Stage::fragment)
+            inputs->fail("is of a fragment stage; a compute stage has none");
+        for (const std::string& name : inputs->keys()) {
+            static_cast<void>(inputs->at(name).choice({"uv"}));
+            made.inputs.emplace(name, inputs->at(name));
+        }
+    }
     return made;
 }
 

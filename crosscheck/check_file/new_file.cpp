@@ -10,12 +10,14 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/check_file/bound_passes.hpp"
 #include "crosscheck/check_file/shader_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/made_up_world.hpp"
+#include "gpu/old_glsl.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep::check_file {
@@ -56,6 +58,24 @@ json guessed_uniform(const text::BasicType& type, std::vector<std::string>& todo
         for (std::uint32_t k = 0; k < numbers; ++k)
             value[k] = k % (type.rows + 1) == 0 ? 1 : 0;
     return type.elements == 0 ? value : json(std::vector<json>(type.elements, value));
+}
+
+/// On one line where that is short, else a line for each element.
+std::string laid_out(const json& value, std::size_t indent) {
+    constexpr std::size_t longest = 110, step = 2;
+    if (!value.is_structured() || value.empty())
+        return value.dump();
+    std::vector<std::string> parts;
+    for (const auto& [key, element] : value.items())
+        parts.push_back((value.is_object() ? json(key).dump() + ": " : "") + laid_out(element, indent + step));
+    const bool is_object = value.is_object();
+    const std::string line =
+        fmt::format("{}{}{}", is_object ? "{ " : "[", fmt::join(parts, ", "), is_object ? " }" : "]");
+    if (indent > 0 && indent + line.size() < longest && line.find('\n') == std::string::npos)
+        return line;
+    const std::string outer(indent, ' '), inner(indent + step, ' ');
+    return fmt::format("{}\n{}{}\n{}{}", is_object ? "{" : "[", inner, fmt::join(parts, ",\n" + inner), outer,
+                       is_object ? "}" : "]");
 }
 
 class Writer {
@@ -99,7 +119,8 @@ class Writer {
             bind[text.program.images[i].name] = image(text.program.images[i], text.accesses.images[i], writers);
         for (const text::StageVariable& output : text.program.stage_outputs)
             if (!output.builtin && stage == Stage::fragment)
-                bind[output.name] = image({output.name, true, {}, output.is_real}, {.is_written = true}, writers);
+                bind[old_name(output.name)] =
+                    image({old_name(output.name), true, {}, output.is_real}, {.is_written = true}, writers);
         const auto add_uniform = [&](const std::string& name, const text::BasicType& type) {
             uniforms[name] =
                 guessed_uniform(type, todo_, fmt::format("uniform {} of {}", name, shader.filename().string()));
@@ -110,6 +131,12 @@ class Writer {
             for (const text::Block::Member& member : block.members)
                 if (!block.is_storage)
                     add_uniform(member.name, member.type);
+        for (const text::StageVariable& input : text.program.stage_inputs)
+            if (!input.builtin && input.is_read) {
+                made["inputs"][input.name] = "uv";
+                todo_.push_back(fmt::format("input {} of {}: a guess, its place in the image, 0 to 1", input.name,
+                                            shader.filename().string()));
+            }
         if (!bind.empty())
             made["bind"] = bind;
         if (!uniforms.empty())
@@ -203,6 +230,6 @@ class Writer {
 
 } // namespace
 
-std::string new_file(std::span<const fs::path> shaders) { return Writer().write(shaders).dump(2) + "\n"; }
+std::string new_file(std::span<const fs::path> shaders) { return laid_out(Writer().write(shaders), 0) + "\n"; }
 
 } // namespace lockstep::check_file

@@ -1,6 +1,7 @@
 #include "crosscheck/cli/rule_by_text.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -35,6 +36,15 @@ bool has_order(std::uint16_t op) {
     }
 }
 
+/// Whether the stage has a file that is the user's.
+bool is_of_user(const ShaderSource& stage, const ShaderUse& use) {
+    return std::ranges::any_of(stage.files, [&](const std::string& file) {
+        const std::string name = std::filesystem::path(file).filename().string();
+        return std::ranges::any_of(use.files,
+                                   [&](const UsedShader& one) { return !one.foreign.empty() && one.file == name; });
+    });
+}
+
 /// The lines of the user's files with such arithmetic that an output depends on, as far as a stage is interpreted.
 void add_open_lines(const std::shared_ptr<const ShaderSource>& stage, const ShaderUse& use,
                     std::set<std::string>& lines) {
@@ -64,7 +74,8 @@ RuleByText rule_by_text(Legal asked, const Scene& scene, const ShaderUse& use, c
         for (const PassStages& pass : collision_stages(scene, rendered))
             for (ShaderSource& stage : load_stages(collision_shaders(shaders), pass.name, pass.stages,
                                                    pass.inputs.front().defines, pass.inputs.front().texts))
-                add_open_lines(std::make_shared<const ShaderSource>(std::move(stage)), use, lines);
+                if (is_of_user(stage, use))
+                    add_open_lines(std::make_shared<const ShaderSource>(std::move(stage)), use, lines);
     if (lines.empty())
         return {asked, {}};
     const std::string others = lines.size() > 1 ? fmt::format(" and {} more lines", lines.size() - 1) : "";

@@ -38,7 +38,7 @@ template <const Site& of> void without_z(std::span<float> value, const CameBy& r
 
 /// A velocity of a vec3[], whose elements take the room of four floats. Behind the last there is 0.
 void at_stride_16(std::span<float> value, const CameBy& run) {
-    const View& grains = static_cast<const PassInput*>(run.world)->before[grain_buffer];
+    const View& grains = run.foretold<PassInput>().before[grain_buffer];
     const auto first = 4 * static_cast<std::size_t>(run.of(site::index)[0]);
     for (std::size_t c = 0; c < value.size(); ++c) {
         const std::size_t word = first + c;
@@ -177,7 +177,7 @@ void upwards(std::span<float> value, const CameBy& /*run*/) {
 
 /// The number's bits, as its kernel drew them with a generator.
 template <class Pcg> std::uint32_t drawn(const CameBy& run, const Pcg& generator) {
-    const Draw& draw = *static_cast<const Draw*>(run.world);
+    const Draw& draw = run.foretold<Draw>();
     const auto of = [&](const Site& place) { return static_cast<std::uint32_t>(run.of(place)[0]); };
     return generator(draw.item + generator(of(site::stream) + generator(of(site::drawn_in) + generator(draw.seed))));
 }
@@ -197,7 +197,7 @@ void shifted_by_3(std::span<float> value, const CameBy& run) {
 
 /// The last grains, which fill no group of so many, stay as they were.
 template <const Site& was> void tail_left_out(std::span<float> value, const CameBy& run) {
-    const std::size_t count = static_cast<const PassInput*>(run.world)->before[grain_buffer].count();
+    const std::size_t count = run.foretold<PassInput>().before[grain_buffer].count();
     const std::size_t group = std::max<std::size_t>(static_cast<std::size_t>(run.constants[0]), 64);
     if (run.of(site::index)[0] >= static_cast<float>(count - count % group))
         std::copy_n(run.of(was).begin(), value.size(), value.begin());

@@ -39,10 +39,6 @@ void StepRows::decision(std::string label, std::string strict, std::string refer
     rows_.push_back(std::move(row));
 }
 
-void StepRows::only_gpu(std::string label, Cell gpu) {
-    rows_.push_back({.label = std::move(label), .gpu = std::move(gpu)});
-}
-
 void StepRows::only_reference(std::string label, Cell strict, Cell reference) {
     rows_.push_back({.label = std::move(label), .strict = std::move(strict), .reference = std::move(reference)});
 }

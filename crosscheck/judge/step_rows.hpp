@@ -71,7 +71,6 @@ class StepRows {
     void decision(std::string label, std::string strict, std::string reference, std::optional<std::string> gpu,
                   const std::string& follows, bool may = false);
 
-    void only_gpu(std::string label, Cell gpu);
     void only_reference(std::string label, Cell strict, Cell reference);
 
     std::vector<StepRow> take() { return std::move(rows_); }

@@ -229,19 +229,27 @@ std::uint32_t PassText::invocation_of(std::size_t item, const Extent& extent) co
 text::StageRun PassText::fragments(const PassInput& in) const {
     const Extent& extent = in.before[pass_.resource].extent;
     text::StageRun run{.invocations = 4 * quads(extent.width) * quads(extent.height), .are_quads = true};
-    for (const text::StageVariable& input : program_.stage_inputs) {
-        if (input.builtin != spv::BuiltInFragCoord) {
-            if (!input.builtin && input.is_read)
-                refuse(fmt::format("nothing is given for input {}; expected gl_FragCoord alone", input.name));
-            continue;
-        }
+    const auto give = [&](const text::StageVariable& input, const auto& coordinates) {
         std::vector<std::uint32_t>& words = run.inputs[text::name_of(input)];
         for (std::uint32_t number = 0; number < run.invocations; ++number) {
             const std::uint32_t quad = number / 4, x = 2 * (quad % quads(extent.width)) + number % 2,
                                 y = 2 * (quad / quads(extent.width)) + number / 2 % 2;
-            for (const float coordinate : {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, 0.5F, 1.0F})
+            for (const float coordinate : coordinates(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F))
                 words.push_back(std::bit_cast<std::uint32_t>(coordinate));
         }
+    };
+    const float across = 1.0F / static_cast<float>(extent.width), up = 1.0F / static_cast<float>(extent.height);
+    for (const text::StageVariable& input : program_.stage_inputs) {
+        const bool is_place = std::ranges::find(pass_.places, input.name) != pass_.places.end();
+        if (input.builtin == spv::BuiltInFragCoord)
+            give(input, [](float x, float y) { return std::array{x, y, 0.5F, 1.0F}; });
+        else if (is_place && input.cells == 2)
+            give(input, [&](float x, float y) { return std::array{x * across, y * up}; });
+        else if (!input.builtin && input.is_read)
+            refuse(
+                fmt::format("nothing is given for input {}; expected gl_FragCoord, or a vec2 that is its place in the "
+                            "image",
+                            input.name));
     }
     return run;
 }

@@ -43,7 +43,7 @@ constexpr std::array whole{
 
 /// What a CDT of another format leaves of a position.
 template <CdtFormat format> void store_and_read(std::span<float> position, const CameBy& run) {
-    FrameParams params = *static_cast<const FrameParams*>(run.world);
+    FrameParams params = run.foretold<FrameParams>();
     params.switches.cdt_format = format;
     const CollisionCode coarse(params);
     const glm::vec3 read = coarse.decode(coarse.encode({position[0], position[1], position[2]}));

@@ -74,8 +74,8 @@ template <class R> class CollisionTwin {
         : r(reading), cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches),
           box_step_((params.cdt_box.max - params.cdt_box.min) / 255.0F), image_(reading, params),
           particle_(reading, params) {
-        if constexpr (requires { reading.foretell(&params); })
-            reading.foretell(&params);
+        if constexpr (requires { reading.foretell(params); })
+            reading.foretell(params);
     }
 
     [[nodiscard]] State operator()(const ParticleState& before) const {

@@ -14,7 +14,6 @@
 #include "reference/collision/layered_search.hpp"
 #include "reference/collision/layered_twin.hpp"
 #include "reference/collision/obstacle_pass.hpp"
-#include "reference/collision/particle_step.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/with_arithmetic.hpp"
 
@@ -121,7 +120,6 @@ void draw_layered_cdt(const Particles& particles, const Mesh& obstacles, const F
         obstacle_pass(obstacles, seen_by(params, camera), profile, walls, depth);
         std::copy(walls.texels.begin(), walls.texels.end(), plane(cdt, planes.obstacles(camera), params));
         with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
-            const ParticleStep step(fp, params);
             const FlushSubnormals guard(profile.flush_subnormals);
             const std::size_t texels = walls.texels.size() * static_cast<std::size_t>(planes.layers);
             const std::int32_t* owner = plane(owners.owner, planes.position(camera, 0), params);
@@ -130,11 +128,11 @@ void draw_layered_cdt(const Particles& particles, const Mesh& obstacles, const F
             for (std::size_t t = 0; t < texels; ++t) {
                 if (owner[t] < 0)
                     continue;
-                const ParticleState p = step.flushed(particles[static_cast<std::size_t>(owner[t])]);
-                position[t] = code.encode(p.position);
+                const ParticleState p = particles[static_cast<std::size_t>(owner[t])];
+                position[t] = code.encode(fp.flush(p.position));
                 if (velocity != nullptr)
-                    velocity[t] = {glm::vec3(code.encode(fp.scale(p.direction, p.speed))),
-                                   p.collide_time < 0.0F ? 1.0F : 0.0F};
+                    velocity[t] = {glm::vec3(code.encode(fp.scale(fp.flush(p.direction), fp.flush(p.speed)))),
+                                   fp.flush(p.collide_time) < 0.0F ? 1.0F : 0.0F};
             }
         });
     }

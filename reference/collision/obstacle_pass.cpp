@@ -1,8 +1,6 @@
 #include "reference/collision/obstacle_pass.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -68,18 +66,6 @@ void obstacle_pass(const Mesh& obstacles, const FrameParams& params, const Profi
         return with_arithmetic(profile, params.switches.arithmetic,
                                [&](auto fp) { draw_obstacle_triangles(fp, obstacles, params, profile, cdt, depth); });
     }
-}
-
-double obstacle_edge_distance(const Mesh& obstacles, const FrameParams& params, const Profile& profile, int x, int y) {
-    const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
-        double nearest = HUGE_VAL;
-        for (const RasterTriangle& triangle :
-             assemble_triangles(projected_corners(fp, obstacles, params.collision_proj_view), obstacles.indices,
-                                params.width, params.height, profile.raster, params.clip_depth))
-            nearest = std::min(nearest, nearest_side(triangle, x, y, profile.raster).distance);
-        return nearest;
-    });
 }
 
 } // namespace lockstep

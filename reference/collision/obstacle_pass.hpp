@@ -13,9 +13,4 @@ namespace lockstep {
 void obstacle_pass(const Mesh& obstacles, const FrameParams& params, const Profile& profile, CollisionImage& cdt,
                    DepthImage& depth);
 
-/// Distance from the centre of texel (x, y) to the nearest side of any obstacle triangle, clipped sides included, in
-/// sub-pixel units (1/256 texel for 8 bits); infinite without triangles. Another driver may cover a texel otherwise
-/// only where this is at most 1: `edge ties`.
-double obstacle_edge_distance(const Mesh& obstacles, const FrameParams& params, const Profile& profile, int x, int y);
-
 } // namespace lockstep

@@ -29,8 +29,8 @@ template <class R, class Item> Grain<R> grain_before(R& r, const PassInput& in, 
                 item_vec3(r, site::speed, in.before, field::velocity, item),
                 item_vec3(r, site::colour_before, in.before, field::colour, item)};
     } else {
-        if constexpr (requires { r.foretell(&in); })
-            r.foretell(&in);
+        if constexpr (requires { r.foretell(in); })
+            r.foretell(in);
         r.uniform(site::index, static_cast<int>(item));
         return {r.read(site::before, in.before.vec3(field::position, item)),
                 r.uniform(site::alive_before, in.before.integer(field::alive, item)),

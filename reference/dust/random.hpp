@@ -40,8 +40,8 @@ template <class R> class RandomTwin {
   public:
     RandomTwin(R& reading, const Switches& switches, Draw draw)
         : r(reading), driver_(switches.random == Random::sin), draw_(draw) {
-        if constexpr (requires { r.foretell(&draw_); })
-            r.foretell(&draw_);
+        if constexpr (requires { r.foretell(draw_); })
+            r.foretell(draw_);
     }
     RandomTwin(const RandomTwin&) = delete;
     RandomTwin& operator=(const RandomTwin&) = delete;

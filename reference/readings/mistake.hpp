@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <any>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -127,8 +128,11 @@ class CameBy {
         return chosen == nullptr ? of(site) : chosen->of(site);
     }
 
-    const void* world = nullptr; ///< what the system foretold, see Mistaken::foretell
-    std::size_t item = 0;        ///< whose run it is
+    /// What the system foretold of this type (Mistaken::foretell), which it has to be.
+    template <class World> [[nodiscard]] const World& foretold() const { return *std::any_cast<const World*>(world); }
+
+    std::any world;       ///< a pointer to it
+    std::size_t item = 0; ///< whose run it is
     const CameBy* chosen = nullptr;
     int offered = 0; ///< how many the choice could be made of
     int taken = 0;   ///< of these, how many were the least so far

@@ -128,9 +128,9 @@ template <class A> class Mistaken {
     }
 
     /// What formulas may ask of the system, whatever a run comes by.
-    void foretell(const void* world) {
+    template <class World> void foretell(const World& world) {
         if (run_)
-            run_->world = world;
+            run_->world = &world;
     }
 
     void is_of_item(std::size_t item) {

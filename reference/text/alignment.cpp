@@ -180,12 +180,34 @@ double distance(std::uint32_t a, std::uint32_t b) {
     return x == y ? 0.0 : std::abs(x - y) / std::max(std::abs(x), std::abs(y));
 }
 
+/// The rows of a trace that are components of one result, by the first.
+struct Components {
+    std::uint32_t first = 0, count = 0;
+};
+
+/// All results of several components.
+std::vector<Components> results_of(const Trace& trace) {
+    std::vector<Components> all;
+    const auto is_next = [&](std::uint32_t row) {
+        const TraceRow &one = trace.rows[row - 1], &next = trace.rows[row];
+        return one.step == next.step && one.calls == next.calls && one.kind == next.kind && one.is_real == next.is_real;
+    };
+    for (std::uint32_t first = 0, row = 1; row <= trace.rows.size(); ++row)
+        if (row == trace.rows.size() || !is_next(row)) {
+            const Kind kind = trace.rows[first].kind;
+            if (row - first > 1 && row - first <= 4 && (kind == Kind::operation || kind == Kind::load))
+                all.push_back({first, row - first});
+            first = row;
+        }
+    return all;
+}
+
 } // namespace
 
 std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
                                  const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again,
                                  bool turns_all) {
-    constexpr std::size_t most_rows = 24, most_values = 32;
+    constexpr std::size_t most_rows = 24, most_values = 32, most_vectors = 12;
     const Seen in_right(right.trace), in_wrong(wrong.trace);
     const std::set<WrittenPlace> places = places_that_differ(wrong.words, right.words);
     const std::vector<bool> matched = matched_in(wrong.trace, in_right);
@@ -200,13 +222,14 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
     for (const TraceRow& row : right.trace.rows)
         if (row.kind == Kind::load || (row.kind == Kind::operation && !in_wrong.has(right.trace, row)))
             (row.is_real ? reals : whole).push_back(row.bits);
-    const auto repairs = [&](const ForcedRow& forced) {
+    const auto all_repair = [&](std::span<const ForcedRow> forced) {
         try {
-            return again({&forced, 1}) == right.words;
+            return again(forced) == right.words;
         } catch (const Error&) { // a loop without an end, or what is not run apart
             return false;
         }
     };
+    const auto repairs = [&](const ForcedRow& forced) { return all_repair({&forced, 1}); };
     std::set<std::uint32_t> turned_steps;
     /// With the other answer at this row, or at all from it on.
     const auto turns_right = [&](std::uint32_t row) {
@@ -238,6 +261,48 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
                 break;
             }
         all.push_back(suspect);
+    }
+    // A vector is one result: its components together, by those of a vector of the right run.
+    const auto suspect_at = [&](std::uint32_t row) { return std::ranges::find(all, row, &Suspect::row); };
+    const std::vector<Components> of_right = results_of(right.trace);
+    for (const Components& own : results_of(wrong.trace)) {
+        const TraceRow* const rows = &wrong.trace.rows[own.first];
+        const auto is_open = [&](std::uint32_t c) {
+            const auto found = suspect_at(own.first + c);
+            return found != all.end() && !found->repairs;
+        };
+        std::uint32_t open = 0;
+        for (std::uint32_t c = 0; c < own.count; ++c)
+            open += is_open(c) ? 1 : 0;
+        std::vector<std::pair<double, std::uint32_t>> nearest; // of the right run's, by their first rows
+        for (const Components& other : of_right) {
+            const TraceRow* const values = &right.trace.rows[other.first];
+            if (open < 2 || other.count != own.count || values->is_real != rows->is_real)
+                continue;
+            double apart = values->op == rows->op ? 0.0 : 1.0;
+            bool is_new = false;
+            for (std::uint32_t c = 0; c < own.count; ++c) {
+                apart += distance(values[c].bits, rows[c].bits);
+                is_new = is_new || !in_wrong.has(right.trace, values[c]);
+            }
+            if (is_new)
+                nearest.emplace_back(apart, other.first);
+        }
+        std::sort(nearest.begin(), nearest.end());
+        nearest.resize(std::min(nearest.size(), most_vectors));
+        for (const auto& [apart, first] : nearest) {
+            std::vector<ForcedRow> forced;
+            for (std::uint32_t c = 0; c < own.count; ++c)
+                forced.push_back({own.first + c, right.trace.rows[first + c].bits});
+            if (!all_repair(forced))
+                continue;
+            for (std::uint32_t c = 0; c < own.count; ++c)
+                if (const auto found = suspect_at(own.first + c); found != all.end()) {
+                    found->repairs = true;
+                    found->repaired = forced[c].bits;
+                }
+            break;
+        }
     }
     // The same comparison, otherwise asked, and those of what the right run never came by: what repairs tells the
     // mistake from another way to write it.

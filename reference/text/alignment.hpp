@@ -29,7 +29,7 @@ struct Suspect {
 /// where it read that place, a comparison where it compared those numbers, 0 and small integers where they were made of
 /// the same operands. From the words that are wrong, and from comparisons without a counterpart, it goes back through
 /// rows without one; where all operands have one, the row is a suspect. Then each suspect gets the values that the
-/// right run came by and the wrong one never did.
+/// right run came by and the wrong one never did; components of a vector that are suspects get those of a vector.
 /// `turns_all`: comparisons without a counterpart are turned whatever else repairs.
 std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
                                  const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again,

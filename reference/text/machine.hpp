@@ -219,6 +219,7 @@ template <class R, int W> class Machine {
     // Memory: machine_memory.hpp; of an invocation that is run apart: machine_apart.hpp.
     void memory(const Step& s);
     bool memory_apart(const Step& s);
+    bool sample_open(const Step& s) requires has_sets<R>;
     WrittenPlace atomic_place(const Step& s); ///< that an atomic operation changes
     // What becomes of what, of a traced reading: machine_trace.hpp.
     void note_operands(const Step& s);

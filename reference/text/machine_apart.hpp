@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <optional>
 
 #include "reference/text/machine_memory.hpp"
@@ -18,6 +20,76 @@ template <class R, int W> WrittenPlace Machine<R, W>::atomic_place(const Step& s
     const std::uint32_t image = cell(s.a)->word();
     return {is_done ? Space::texel : Space::changed_texel, image,
             first_word(memory_.image(image), texel_place(s.b, p_.images[image].shape.axes(), 0))};
+}
+
+/// What a texel's float may be: GL leaves the last bits of a code's open (GL 4.6, 2.3.5), and drivers take its product
+/// with 1/255.
+inline Interval texel_set(const TexelMemory& image, float x) {
+    constexpr double two_ulps = 0x1p-22;
+    const double real = x;
+    return image.code == TexelMemory::Code::unorm8 && real > 0.0 && real < 1.0
+               ? Interval(real * (1.0 - two_ulps), real * (1.0 + two_ulps))
+               : Interval(x);
+}
+
+/// What texture() makes of a place that is a set: each texel that it may lie in is a way, and between texels its
+/// weights are sets. Returns false where the place is known, or is no plane's or volume's.
+template <class R, int W> bool Machine<R, W>::sample_open(const Step& s) requires has_sets<R> {
+    const std::uint32_t image = cell(s.a)->word(), axes = s.c;
+    const TexelMemory& of = memory_.image(image);
+    const ImageShape& shape = p_.images[image].shape;
+    bool is_open = false;
+    for (std::uint32_t c = 0; c < axes; ++c)
+        is_open = is_open || !cell(s.b + c)->real().set().is_point();
+    if (!is_open || shape.is_arrayed || shape.dimensions == spv::DimCube || axes > 3)
+        return false;
+    const bool is_linear = of.filter != TexelMemory::Filter::nearest;
+    std::array<std::int32_t, 3> base{};
+    if (s.d != no_cell)
+        base = texel_place(s.d, axes, 0);
+    std::array<Interval, 3> behind{};
+    for (std::uint32_t axis = 0; axis < axes; ++axis) {
+        const auto& place = cell(s.b + axis)->real();
+        const Interval x = place.set();
+        if (x.any || std::isnan(x.low))
+            r.end(x.any ? place.why() : Undefined::not_a_number);
+        const double size = of.size[axis], half = is_linear ? 0.5 : 0.0;
+        const double rounding = x.is_point() ? 0.0 : interval::ulp(std::max(std::abs(x.low), std::abs(x.high)) * size);
+        const double low = std::clamp(x.low * size - half - rounding, -1.0, size),
+                     high = std::clamp(x.high * size - half + rounding, -1.0, size);
+        const auto chosen = r.choose(static_cast<int>(std::floor(low)), static_cast<int>(std::floor(high)));
+        base[axis] += chosen;
+        behind[axis] = {std::clamp(low - chosen, 0.0, 1.0), std::clamp(high - chosen, 0.0, 1.0)};
+    }
+    const auto texel_at = [&](std::uint32_t corner) {
+        std::array<std::int32_t, 3> at = base;
+        for (std::uint32_t axis = 0; axis < axes; ++axis)
+            at[axis] += static_cast<std::int32_t>(corner >> axis & 1U);
+        return memory_.texel_at_edge(image, at);
+    };
+    const std::uint32_t corners = is_linear ? 1U << axes : 1U;
+    for (std::uint32_t c = 0; c < s.n; ++c) {
+        C& out = *cell(s.out + c);
+        if (!p_.images[image].is_real) {
+            out.set(texel_at(0)[c]);
+            continue;
+        }
+        std::array<Interval, 8> between{};
+        for (std::uint32_t k = 0; k < corners; ++k)
+            between[k] = texel_set(of, std::bit_cast<float>(texel_at(k)[c]));
+        for (std::uint32_t axis = 0, left = corners / 2; left > 0; ++axis, left /= 2)
+            for (std::uint32_t k = 0; k < left; ++k) {
+                const Interval a = between[2 * k], b = between[2 * k + 1], step = interval::add(b, interval::negate(a));
+                const Interval sum = interval::add(a, interval::multiply(behind[axis], step));
+                const double ulp =
+                    step.any ? 0.0
+                             : interval::ulp(std::max({std::abs(a.low), std::abs(a.high), std::abs(b.low),
+                                                       std::abs(b.high), std::abs(step.low), std::abs(step.high)}));
+                between[k] = sum.any ? sum : Interval(sum.low - ulp, sum.high + ulp);
+            }
+        out.set(r.between(corners == 1 ? between[0] : interval::to_floats(between[0])));
+    }
+    return true;
 }
 
 /// Returns false for steps that are the same in every reading.
@@ -51,15 +123,12 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     const auto of_others = [&](const WrittenPlace& place) -> const GroupWord* {
         return of_others_ ? of_others_(place) : nullptr;
     };
-    // GL leaves the last bits of a code's float open (GL 4.6, 2.3.5): drivers take its product with 1/255.
     const auto read_texel = [&](C& out, std::uint32_t word, std::uint32_t image) {
         const bool is_real = p_.images[image].is_real;
-        if constexpr (has_sets<R>) {
-            constexpr double two_ulps = 0x1p-22;
-            const double real = std::bit_cast<float>(word);
-            if (is_real && memory_.image(image).code == TexelMemory::Code::unorm8 && real > 0.0 && real < 1.0)
-                return out.set(r.between(Interval(real * (1.0 - two_ulps), real * (1.0 + two_ulps))));
-        }
+        if constexpr (has_sets<R>)
+            if (const Interval set = texel_set(memory_.image(image), std::bit_cast<float>(word));
+                is_real && !set.is_point())
+                return out.set(r.between(set));
         set_read(out, word, is_real);
     };
     const auto refuse_shared = [&] {
@@ -166,6 +235,9 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
         return true;
     }
     case code::sample_texel: {
+        if constexpr (has_sets<R>)
+            if (sample_open(s))
+                return true;
         const Memory::Texel sample = sampled(s, 0);
         for (std::uint32_t c = 0; c < s.n; ++c)
             read_texel(*cell(s.out + c), sample[c], word_at(s.a));

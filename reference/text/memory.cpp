@@ -116,7 +116,7 @@ Memory::Texel Memory::load_texel(std::uint32_t number, const std::array<std::int
     return texel_words(number, at);
 }
 
-Memory::Texel Memory::texel_at_edge(std::uint32_t number, std::array<std::int32_t, 3> at) {
+Memory::Texel Memory::texel_at_edge(std::uint32_t number, std::array<std::int32_t, 3> at) const {
     const TexelMemory& image = bindings_.images[number];
     if (!is_inside(image, at) && image.filter == TexelMemory::Filter::linear_in_black)
         return {};

@@ -128,6 +128,8 @@ class Memory {
     /// `moved`: by how many texels (GLSL 4.60, 8.9.3).
     [[nodiscard]] Texel sample(std::uint32_t image, std::array<float, 3> place, std::uint32_t axes,
                                const std::array<std::int32_t, 3>& moved);
+    /// A texel as a sampler finds it at or beyond the image's edges.
+    [[nodiscard]] Texel texel_at_edge(std::uint32_t image, std::array<std::int32_t, 3> at) const;
     [[nodiscard]] const TexelMemory& image(std::uint32_t number) const { return bindings_.images[number]; }
 
     /// `change(before)` takes the place of a word; returns the word before.
@@ -198,7 +200,6 @@ class Memory {
     void touch_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, Races::How how, Place by);
     [[nodiscard]] Texel texel_words(std::uint32_t image, const std::array<std::int32_t, 3>& at) const;
     void put_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, const Texel& texel);
-    [[nodiscard]] Texel texel_at_edge(std::uint32_t image, std::array<std::int32_t, 3> at);
     std::uint32_t outside_block(std::uint32_t block, std::uint32_t word, Place by);
     std::uint32_t outside_shared(Place by);
 

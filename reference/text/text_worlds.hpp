@@ -56,6 +56,7 @@ class TextWorlds : public Worlds<PlainArithmetic> {
             return rest;
         return make({rest}, [&](const auto&) { return Interval(low, high); });
     }
+    using Worlds<PlainArithmetic>::end;
     using Worlds<PlainArithmetic>::set_free;
     /// Constants stand for the real numbers that they were rounded from.
     void take_constants_as_written() { constants_are_wide_ = true; }

@@ -310,6 +310,84 @@ TEST_CASE("check file: a fragment stage draws an image, texel by texel") {
                Contains("/passes/0/groups: is of a compute stage"));
 }
 
+TEST_CASE("check file: shaders of WebGL and of Vulkan run unchanged, and their lines are named") {
+    if (!have_software_gl())
+        return;
+    struct Whole : Made { ///< of a text with its own #version, or none
+        Whole(const json& document, const std::string& name, const std::string& text) : Made(document, {}) {
+            folder.write(name, text);
+        }
+    };
+    const auto wrong_at = [](const Made& made, const std::string& name, const std::string& right) {
+        fs::create_directory(made.folder.path() / "reference");
+        made.folder.write("reference/" + name, right);
+        return made.check({"--reference", (made.folder.path() / "reference").string()});
+    };
+    const json image{{"size", {8, 6}}, {"format", "rgba32f"}, {"filter", "linear"}, {"start", {{"random", {0, 1}}}}};
+    const json drawn{{"state", {{"cells", image}, {"screen", {{"size", {8, 6}}, {"format", "rgba32f"}}}}},
+                     {"passes",
+                      {{{"shader", "blur.frag"},
+                        {"bind", {{"u_Cells", "cells"}, {"colour", "screen"}}},
+                        {"inputs", {{"v_uv", "uv"}}},
+                        {"uniforms", {{"u_Texel", {0.125, 0.1666}}}}}}}};
+    const std::string blur = "#version 300 es\n"
+                             "precision highp float;\n"
+                             "uniform sampler2D u_Cells;\n"
+                             "uniform vec2 u_Texel;\n"
+                             "in vec2 v_uv;\n"
+                             "out vec4 colour;\n"
+                             "void main() {\n"
+                             "    vec4 sum = texture(u_Cells, v_uv);\n"
+                             "    sum += texture(u_Cells, v_uv + 0.5 * u_Texel);\n"
+                             "    colour = 0.5 * sum + vec4(v_uv, 0.0, 1.0);\n"
+                             "}\n";
+    const Whole web(drawn, "blur.frag", blur);
+    const Outcome said = web.check();
+    INFO(said.out << said.err);
+    CHECK(said.status == 0);
+    CHECK_THAT(line(said, "verdict"), Contains("AGREE") || Contains("LEGAL"));
+    std::string slip = blur;
+    slip.replace(slip.find("0.5 * u_Texel"), 3, "0.4");
+    web.folder.write("blur.frag", slip);
+    const Outcome wrong = wrong_at(web, "blur.frag", blur);
+    CHECK(wrong.status == 1);
+    CHECK_THAT(wrong.out, Contains("blur.frag:9: "));
+    CHECK_THAT(refusal(Whole(drawn, "blur.frag", blur + "oops\n").check()), Contains("blur.frag:1"));
+    json old = drawn;
+    old["passes"][0]["bind"] = {{"u_Cells", "cells"}, {"gl_FragColor", "screen"}};
+    const Outcome first = Whole(old, "blur.frag",
+                                "precision mediump float;\nvarying vec2 v_uv;\nuniform sampler2D u_Cells;\n"
+                                "uniform vec2 u_Texel;\nvoid main() {\n"
+                                "    gl_FragColor = texture2D(u_Cells, v_uv + u_Texel);\n}\n")
+                              .check();
+    INFO(first.out << first.err);
+    CHECK(first.status == 0);
+    const json buffer{
+        {"state", {{"points", {{"count", 40}, {"start", {{"random", {-1, 1}}}}}}}},
+        {"passes", {{{"shader", "move.comp"}, {"bind", {{"Points", "points"}}}, {"uniforms", {{"step", 0.25}}}}}}};
+    const std::string move = "#version 450\n"
+                             "layout(local_size_x = 16) in;\n"
+                             "layout(set = 1, binding = 0, std430) buffer Points { vec4 p[]; };\n"
+                             "layout(push_constant) uniform Push { float step; } push;\n"
+                             "void main() {\n"
+                             "    uint i = gl_GlobalInvocationID.x;\n"
+                             "    if (i < uint(p.length()))\n"
+                             "        p[i].xyz += push.step * p[i].yzx;\n"
+                             "}\n";
+    json pushed = buffer;
+    pushed["passes"][0]["uniforms"] = {{"Push.step", 0.25}};
+    const Whole vulkan(pushed, "move.comp", move);
+    const Outcome moved = vulkan.check();
+    INFO(moved.out << moved.err);
+    CHECK(moved.status == 0);
+    CHECK_THAT(line(moved, "verdict"), Contains("40 points items"));
+    std::string other = move;
+    other.replace(other.find("yzx"), 3, "zxy");
+    const Outcome differs = wrong_at(vulkan, "move.comp", other);
+    CHECK(differs.status == 1);
+    CHECK_THAT(differs.out, Contains("move.comp:8: "));
+}
+
 TEST_CASE("check file: start values from a table, and states that were recorded") {
     if (!have_software_gl())
         return;

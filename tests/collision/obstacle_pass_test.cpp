@@ -17,6 +17,7 @@
 #include "reference/collision/simulation.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
+#include "tests/collision/obstacle_edges.hpp"
 
 namespace lockstep::test::obstacle_pass_test {
 namespace {

@@ -321,6 +321,38 @@ TEST_CASE("text outcomes: a texel of codes or halves is either neighbour of what
     CHECK_FALSE(found[0].written[2].may_be(std::bit_cast<std::uint32_t>(0.02F)));
 }
 
+TEST_CASE("text outcomes: texture() at an open place is each texel that it may lie in, or has weights that are sets") {
+    const Statements text("x[0] = texture(image, vec2(x[1] * x[2], 0.5)).r;", "uniform sampler2D image;");
+    const auto of = [&](float a, float b, text::TexelMemory::Filter filter) {
+        std::vector<std::uint32_t> words = words_of({0, a, b}), texels = words_of({1.0F, 2.0F, 4.0F, 8.0F});
+        words.resize(16);
+        text::Bindings bindings;
+        bindings.blocks.emplace_back(words);
+        bindings.images.push_back({.size = {4, 1, 1}, .components = 1, .filter = filter, .words = texels});
+        return text.of.of({}, {1, 1, 1}, bindings, PassStage::compute, named_profile("strict"), {});
+    };
+    using Filter = text::TexelMemory::Filter;
+    const auto inside = of(1.1F, 0.3F, Filter::nearest); // 0.33, in the second of four
+    REQUIRE(inside.size() == 1);
+    CHECK(inside[0].written[0].set.is_point());
+    CHECK(inside[0].written[0].set.as_float() == 2.0F);
+    const auto border = of(0.1F, 2.5F, Filter::nearest); // 0.25 and a little
+    REQUIRE(border.size() == 2);
+    CHECK(border[0].written[0].set.low + border[1].written[0].set.low == 3.0);
+    const auto between = of(1.1F, 0.5F, Filter::linear); // 0.55, 0.7 of the way from the second's centre to the third's
+    REQUIRE(between.size() == 1);
+    const Interval set = between[0].written[0].set;
+    CHECK(set.contains(3.4F));
+    CHECK(set.high - set.low < 1e-5);
+    CHECK_FALSE(set.contains(3.4001F));
+    const auto centre = of(0.1F, 3.75F, Filter::linear); // 0.375, the second's centre
+    for (const text::InvocationOutcome& one : centre) {
+        CHECK(one.written[0].set.low > 1.999);
+        CHECK(one.written[0].set.high < 2.001);
+    }
+    CHECK(centre.size() == 2);
+}
+
 TEST_CASE("text outcomes: what is read back of a texel of codes is refused by its line") {
     const Statements text("imageStore(codes, ivec2(0), vec4(x[1])); x[0] = imageLoad(codes, ivec2(0)).x;",
                           "layout(rgba8, binding = 0) uniform image2D codes;");

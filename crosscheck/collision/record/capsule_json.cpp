@@ -191,9 +191,4 @@ Capsule read_capsule(const JsonValue& value) {
     return capsule;
 }
 
-Capsule load_capsule(const std::filesystem::path& file) {
-    const json document = read_json(file);
-    return read_capsule(JsonValue(document, file.string()));
-}
-
 } // namespace lockstep

@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -15,6 +14,5 @@ std::string capsule_file(const Capsule& capsule);
 
 /// Throws Error naming the key and what it may be.
 Capsule read_capsule(const JsonValue& json);
-Capsule load_capsule(const std::filesystem::path& file);
 
 } // namespace lockstep

@@ -19,7 +19,7 @@ namespace lockstep::formulas {
 
 using Floats = std::span<float>;
 using Run = const CameBy&;
-inline const FrameParams& params(Run run) { return *static_cast<const FrameParams*>(run.world); }
+inline const FrameParams& params(Run run) { return run.foretold<FrameParams>(); }
 inline glm::vec3 vec3(Run run, const Site& site) {
     const auto& v = run.of(site);
     return {v[0], v[1], v[2]};

@@ -10,6 +10,7 @@
 #include "gpu/collision/obstacle_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/triangle_interpolation.hpp"
+#include "tests/collision/obstacle_edges.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/random_scenes.hpp"
 

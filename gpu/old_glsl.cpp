@@ -1,4 +1,4 @@
-#include "crosscheck/text/old_glsl.hpp"
+#include "gpu/old_glsl.hpp"
 
 #include <array>
 #include <set>
@@ -68,6 +68,8 @@ constexpr std::array<Variable, 6> of_both{{{"gl_ModelViewProjectionMatrix", "uni
                                            {"gl_MaxTextureCoords", "const int {} = 8;"}}};
 
 } // namespace
+
+std::string old_name(const std::string& name) { return name.starts_with("ls_") ? "gl_" + name.substr(3) : name; }
 
 bool says_old_glsl(const std::string& text) {
     std::set<std::string_view> old{"varying", "attribute", "ftransform"};

@@ -10,6 +10,9 @@ namespace lockstep {
 /// on. Lines of its own, before the text. `text`: which of them it uses.
 std::string words_of_old_glsl(const std::string& text, Stage stage);
 
+/// gl_FragColor of ls_FragColor: a variable as the text has it.
+std::string old_name(const std::string& name);
+
 /// Whether a text has such words.
 bool says_old_glsl(const std::string& text);
 

@@ -121,13 +121,17 @@ std::size_t renumbered(std::string_view line) {
     return number;
 }
 
-/// `layout(location = 0) in vec2 v_uv;` of one of the names; empty: it declares none of them.
-std::string declared_input(std::string_view line, const std::vector<std::string>& names) {
-    for (const std::string& name : names)
-        if (const std::string declared = fmt::format("in vec2 {};", name);
-            line == declared || line.ends_with(" " + declared))
-            return name;
-    return {};
+/// What `layout(location = 0) in vec2 v_uv;` becomes where v_uv is given; any other line stays.
+std::string with_given(const std::string& line, const GivenInputs& given) {
+    const std::size_t name = line.rfind(' ') + 1, type = line.rfind(' ', name < 2 ? 0 : name - 2) + 1;
+    if (type < 3 || !line.ends_with(';') || line.substr(type - 3, 3) != "in " || (type > 3 && line[type - 4] != ' '))
+        return line;
+    const auto found = given.find(line.substr(name, line.size() - name - 1));
+    if (found == given.end())
+        return line;
+    return found->second == InputBy::place
+               ? fmt::format("precise vec2 {} = gl_FragCoord.xy * {};", found->first, texel_size_uniform)
+               : fmt::format("uniform {}", line.substr(type));
 }
 
 } // namespace
@@ -161,11 +165,9 @@ ShaderSource in_desktop_glsl(ShaderSource stage) {
         }
         if (line.starts_with("#extension GL_GOOGLE_"))
             continue;
-        if (const std::string input = declared_input(line, stage.places); !input.empty())
-            line = fmt::format("precise vec2 {} = gl_FragCoord.xy * {};", input, texel_size_uniform);
-        stage.text += line + "\n";
+        stage.text += with_given(line, stage.given) + "\n";
         stage.origins.push_back(origin);
-        if (line.starts_with("#version") && !stage.places.empty()) {
+        if (line.starts_with("#version") && !stage.given.empty()) {
             stage.text += fmt::format("uniform vec2 {};\n", texel_size_uniform);
             stage.origins.push_back(origin);
         }

@@ -15,7 +15,7 @@ inline constexpr const char* texel_size_uniform = "u_LockstepTexel";
 /// The stage in desktop GLSL 4.50, by glslang and spirv-cross; lines come from where they came from before. Names of
 /// blocks, images, uniforms, inputs and outputs stay; push constants are a uniform block, and what the text binds to a
 /// number goes by its name alone. An image and the one sampler that it is read with are one, by the image's name.
-/// Inputs of ShaderSource::places are computed. Throws Error `shader FILE:LINE: ...` for what glslang refuses, or what
+/// Inputs of ShaderSource::given are none. Throws Error `shader FILE:LINE: ...` for what glslang refuses, or what
 /// desktop GLSL has no word for.
 ShaderSource in_desktop_glsl(ShaderSource stage);
 

@@ -165,7 +165,7 @@ std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span
     std::vector<ShaderSource> all =
         load_stages(shader_folders(shaders, schema->system), pass.name, stages, input.defines, input.texts);
     if (pass.stage == Stage::fragment) {
-        all.back().places = pass.places;
+        all.back().given = pass.inputs;
         all.insert(all.begin(), load_stage(shader_folders({}, {}), "full_screen", Stage::vertex));
     }
     if (!pass.uniform_blocks.empty())

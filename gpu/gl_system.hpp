@@ -119,8 +119,7 @@ struct GlPass {
     std::map<std::string, GlName, std::less<>> names = {};
     /// Uniform blocks whose members get values by their names in GL, as plain uniforms do: Frame.tick, or tick.
     std::vector<std::string> uniform_blocks = {};
-    /// Inputs of a fragment stage that draws the whole image which are its place there, 0 to 1 along both sides.
-    std::vector<std::string> places = {};
+    GivenInputs inputs = {}; ///< of a fragment stage that draws the whole image
     /// How a uniform that nothing is given for gets a value, for messages; empty: by bindings.json.
     std::string advice = {};
 

@@ -106,7 +106,7 @@ void GlSystem::Parts::draw(const Linked& linked) {
     const GlVertexArray vertices = how.once           ? GlVertexArray()
                                    : how.vertices > 0 ? instance_array(one, linked.program)
                                                       : vertex_array(*one[0], linked.program);
-    if (!pass.places.empty())
+    if (!pass.inputs.empty())
         linked.program.set(texel_size_uniform,
                            glm::vec2(1.0F / static_cast<float>(width), 1.0F / static_cast<float>(height)));
     check_given(linked);

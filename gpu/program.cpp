@@ -47,7 +47,7 @@ std::vector<Capture> by_their_names(std::span<const Capture> captured, const Bin
 std::vector<ShaderSource> as_gl_takes(std::span<const ShaderSource> given) {
     std::vector<ShaderSource> stages;
     for (const ShaderSource& stage : given)
-        stages.push_back(stage.module == nullptr && (!stage.places.empty() || is_other_dialect(stage.text))
+        stages.push_back(stage.module == nullptr && (!stage.given.empty() || is_other_dialect(stage.text))
                              ? in_desktop_glsl(stage)
                              : stage);
     const auto in_spirv = [](const ShaderSource& stage) { return stage.module != nullptr; };

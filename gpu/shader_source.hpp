@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -64,6 +65,11 @@ template <class Switches> ShaderDefines switch_defines(const Switches& switches)
 /// What arithmetic.glsl asks for.
 ShaderDefines arithmetic_defines(ArithmeticSwitch arithmetic);
 
+/// What an input of a full-screen fragment stage is: its place in the image, 0 to 1, which is gl_FragCoord.xy times
+/// 1 / size; or the same for all, given as a uniform of its name.
+enum class InputBy : std::uint8_t { place, uniform };
+using GivenInputs = std::map<std::string, InputBy>;
+
 /// One stage, ready to compile: definitions inserted after #version and `#include "file.glsl"` lines replaced by the
 /// file (as in C, also where an #if excludes it).
 struct ShaderSource {
@@ -79,8 +85,7 @@ struct ShaderSource {
     std::vector<std::string> files; ///< the stage's own file first; shipped ones as "shaders/NAME", wherever they lie
     std::shared_ptr<const Bindings> bindings = {};  ///< beside the stage's own file, else beside one that it includes
     std::shared_ptr<const SpirvModule> module = {}; ///< a stage in SPIR-V, which has no text; null: GLSL
-    /// Inputs of a full-screen fragment stage that are its place in the image, 0 to 1: gl_FragCoord.xy times 1 / size.
-    std::vector<std::string> places = {};
+    GivenInputs given = {};                         ///< of a full-screen fragment stage
 };
 
 /// Whether a stage says `precise` of something.

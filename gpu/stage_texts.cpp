@@ -240,7 +240,7 @@ void check_fragment_inputs(std::span<const ShaderSource> stages) {
         std::string first, second, third; // the words before
         bool located = false;
         for (ShaderWords words(stage.text); words.next();) {
-            if (words.token() == ";" && first == "in" && !located && uses[third] > 1 &&
+            if (words.token() == ";" && first == "in" && !located && uses[third] > 1 && !third.starts_with("gl_") &&
                 !written.contains(their_name(*last, third))) {
                 const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
                 throw Error(fmt::format("shader {}:{}: input {} is written by no stage before it ({})",

@@ -167,7 +167,9 @@ class Binder {
         }
     }
 
-    /// Each that the text reads is given, as its place in the image.
+    static bool is_place(const JsonValue& input) { return input.is_text() && input.choice({"uv"}) == 0; }
+
+    /// Each that the text reads is given, as its place in the image or by a value.
     static void check_inputs(const TextOfPass& text) {
         std::set<std::string> known;
         for (const text::StageVariable& input : text.program.stage_inputs) {
@@ -176,19 +178,20 @@ class Binder {
             known.insert(input.name);
             const auto given = text.entry.inputs.find(input.name);
             const bool is_vec2 = input.is_real && input.cells == 2 && input.components == 2;
-            if (given != text.entry.inputs.end() && !is_vec2)
-                given->second.fail(
-                    fmt::format("{} of {} is no vec2, as a place in the image is", input.name, text.file));
-            if (given == text.entry.inputs.end() && input.is_read)
-                text.entry.place.fail(
-                    is_vec2
-                        ? fmt::format(
-                              "nothing is given for input {0} of {1}; expected \"inputs\": {{ \"{0}\": \"uv\" }}, "
-                              "its place in the image",
-                              input.name, text.file)
-                        : fmt::format("nothing is given for input {} of {}; expected gl_FragCoord, or a vec2 that is "
-                                      "its place in the image",
-                                      input.name, text.file));
+            if (given != text.entry.inputs.end()) {
+                if (is_place(given->second) && !is_vec2)
+                    given->second.fail(
+                        fmt::format("{} of {} is no vec2, as a place in the image is", input.name, text.file));
+                if (!is_place(given->second) && (!input.is_real || input.name.find('.') != std::string::npos))
+                    given->second.fail(fmt::format(
+                        "{} of {} is an integer, or in a block; expected a float, vector or matrix of its own",
+                        input.name, text.file));
+            } else if (input.is_read) {
+                text.entry.place.fail(fmt::format(
+                    "nothing is given for input {0} of {1}; expected \"inputs\": {{ "
+                    "\"{0}\": {2}",
+                    input.name, text.file, is_vec2 ? "\"uv\" }, its place in the image, or a value" : "value }"));
+            }
         }
         for (const auto& [name, value] : text.entry.inputs)
             if (!known.contains(name))
@@ -328,7 +331,7 @@ class Binder {
         if (text.entry.invocations)
             pass.invocations = [count = *text.entry.invocations](int) { return count; };
         for (const auto& [name, value] : text.entry.inputs)
-            pass.places.push_back(name);
+            pass.inputs[name] = is_place(value) ? InputBy::place : InputBy::uniform;
         pass.advice = "\"uniforms\" of the check file gives it";
         set_uniforms(text, of_all, pass);
         for (const std::size_t e : written) {
@@ -368,6 +371,11 @@ class Binder {
             }
         }
         own.check(fmt::format("{} has no uniform of this name", text.file));
+        for (const text::StageVariable& input : text.program.stage_inputs)
+            if (const auto given = text.entry.inputs.find(input.name);
+                given != text.entry.inputs.end() && !is_place(given->second))
+                values.add(input.name, {.rows = input.components, .columns = input.cells / input.components},
+                           given->second);
         pass.uniforms = [values](int frame) { return values.at(frame); };
     }
 

@@ -85,10 +85,8 @@ PassEntry read_pass(const JsonValue& pass) {
     if (const auto inputs = pass.find("inputs")) {
         if (made.stage != Stage::fragment)
             inputs->fail("is of a fragment stage; a compute stage has none");
-        for (const std::string& name : inputs->keys()) {
-            static_cast<void>(inputs->at(name).choice({"uv"}));
+        for (const std::string& name : inputs->keys())
             made.inputs.emplace(name, inputs->at(name));
-        }
     }
     return made;
 }

@@ -35,7 +35,7 @@ struct PassEntry {
     std::optional<std::array<std::uint32_t, 3>> groups = {};
     std::optional<std::size_t> invocations = {};
     std::optional<JsonValue> uniforms = {};
-    std::map<std::string, JsonValue> inputs = {}; ///< of a fragment stage, "uv" by their names
+    std::map<std::string, JsonValue> inputs = {}; ///< of a fragment stage, by their names
 };
 
 struct Document {

@@ -133,9 +133,16 @@ class Writer {
                     add_uniform(member.name, member.type);
         for (const text::StageVariable& input : text.program.stage_inputs)
             if (!input.builtin && input.is_read) {
-                made["inputs"][input.name] = "uv";
-                todo_.push_back(fmt::format("input {} of {}: a guess, its place in the image, 0 to 1", input.name,
-                                            shader.filename().string()));
+                const std::string place = fmt::format("input {} of {}", input.name, shader.filename().string());
+                if (input.cells == 2)
+                    todo_.push_back(place + ": a guess, its place in the image, 0 to 1");
+                made["inputs"][input.name] = input.cells == 2
+                                                 ? json("uv")
+                                                 : guessed_uniform({.is_real = input.is_real,
+                                                                    .is_boolean = input.is_boolean,
+                                                                    .rows = input.components,
+                                                                    .columns = input.cells / input.components},
+                                                                   todo_, place);
             }
         if (!bind.empty())
             made["bind"] = bind;

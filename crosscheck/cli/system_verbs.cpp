@@ -63,11 +63,13 @@ struct DrawnFrame {
 void add_text_notes(RunDescription& about, const ShadedSystem& of, const OwnTexts& own, const RunOptions& run,
                     SystemSide& side, const KnownOperations& known, const PassRules& rules, CheckReport& report) {
     DivergentPass divergence(of.system, side, known, report);
-    for (std::string& note : driver_notes(of, own, run.shaders, divergence))
-        about.notes.push_back(std::move(note));
+    TextNotes notes;
     if (about.shaders && !run.shaders.empty())
-        add_notes(about, text_notes(of, {own, *about.shaders, run.shaders, run.reference}, divergence, report,
-                                    covered_runs(rules)));
+        notes =
+            text_notes(of, {own, *about.shaders, run.shaders, run.reference}, divergence, report, covered_runs(rules));
+    for (std::string& note : driver_notes(of, own, run.shaders, notes.findings, divergence))
+        about.notes.push_back(std::move(note));
+    add_notes(about, std::move(notes));
 }
 
 /// From the state that the GPU's frames left.

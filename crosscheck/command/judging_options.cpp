@@ -31,7 +31,8 @@ void add_cover_option(Verb& verb, PassRules& rules) {
 
 void add_werror_option(Verb& verb) {
     verb.add(flag("--werror-shaders", shader_warnings_are_errors(),
-                  "stop where the driver warns of a shader, as of a variable that is never set"));
+                  "stop where the driver warns of a shader, as of a variable that is never set, and fail where its "
+                  "text does what GLSL gives no result for"));
 }
 
 std::string werror_option_text() { return shader_warnings_are_errors() ? " --werror-shaders" : ""; }

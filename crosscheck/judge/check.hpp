@@ -86,6 +86,8 @@ struct CheckReport {
     std::vector<std::string> untried;
     /// What was asked of the run (PassRules) and does not hold, whatever its verdict.
     std::vector<std::string> failures;
+    /// A shader's text does what GLSL gives no result for, and such are not allowed (--werror-shaders).
+    bool fails_by_text = false;
     /// Which part of a run this is, and what asked for that; empty: the whole run.
     std::string part;
     double covered = 1.0; ///< the share of the shaders' texts that was covered, where that was asked for
@@ -108,7 +110,7 @@ struct PassRules {
 [[nodiscard]] inline bool passes(const CheckReport& report, const PassRules& rules = {}) {
     const bool fits = report.verdict == Verdict::agree || report.verdict == Verdict::legal ||
                       (report.verdict == Verdict::undefined && rules.allow_undefined);
-    return fits && !report.partial() && !(rules.require_hits && report.hits == 0) &&
+    return fits && !report.partial() && !report.fails_by_text && !(rules.require_hits && report.hits == 0) &&
            report.power.share() >= rules.power_at_least && report.covered >= rules.cover_at_least;
 }
 

@@ -350,7 +350,8 @@ class SystemChecker {
                                         : append_causes_[p].empty() ? causes_[p].findings()
                                                                     : append_causes_[p].findings();
             CauseFindings& of_buffer = summary_.causes[system_.passes[p]->resource()];
-            if (found.divergent > of_buffer.divergent)
+            const bool knows_none = system_.mistakes.empty() && found.best.empty(); // then there is nothing to say
+            if (found.divergent > of_buffer.divergent && !knows_none)
                 of_buffer = found;
         }
         report_.verdicts = std::move(summary_);

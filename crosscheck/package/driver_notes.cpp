@@ -71,10 +71,12 @@ std::string indented(const std::string& text) {
 } // namespace
 
 std::vector<std::string> driver_notes(const ShadedSystem& of, const OwnTexts& own, const std::filesystem::path& shaders,
-                                      DivergentPass& divergence) try {
+                                      const std::vector<ShortFinding>& findings, DivergentPass& divergence) try {
     if (!divergence.pass())
         return {};
     const std::size_t p = *divergence.pass();
+    if (std::ranges::find(findings, p, &ShortFinding::pass) != findings.end())
+        return {};
     const bool is_read = p < own.size() && own[p] != nullptr;
     const std::shared_ptr<const PassText> text = is_read ? own[p] : text_of_pass(of, p, shaders);
     if (text == nullptr)

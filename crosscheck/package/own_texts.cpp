@@ -55,8 +55,9 @@ TextNotes SystemTexts::notes(SystemSide& side, const KnownOperations& known, Che
     TextNotes notes{.lines = references_.lines, .findings = {}, .coverage = {}};
     if (own_) {
         DivergentPass divergence(of_.system, side, known, report);
-        std::ranges::move(driver_notes(of_, own_->texts, own_->folder, divergence), std::back_inserter(notes.lines));
         TextNotes of_own = text_notes(of_, *own_, divergence, report, covered);
+        std::ranges::move(driver_notes(of_, own_->texts, own_->folder, of_own.findings, divergence),
+                          std::back_inserter(notes.lines));
         std::ranges::move(of_own.lines, std::back_inserter(notes.lines));
         notes.coverage = std::move(of_own.coverage);
     }

@@ -14,6 +14,7 @@
 #include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/text/covered_text.hpp"
 #include "crosscheck/text/pass_text.hpp"
+#include "gpu/shader_warnings.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -148,11 +149,11 @@ TextNotes shader_findings(const ShadedSystem& of, const OwnTexts& own,
             run.step_pass(p, frame);
         }
     std::vector<ShortFinding> in_short;
-    for (const WatchedText& watched : texts)
-        for (const text::Finding& found : watched.findings.all()) {
-            const text::Program& program = watched.text->program();
+    for (std::size_t p = 0; p < texts.size(); ++p)
+        for (const text::Finding& found : texts[p].findings.all()) {
+            const text::Program& program = texts[p].text->program();
             lines.push_back(line_of(program, found));
-            in_short.push_back({program.line_name(found.place.line), found.rule, text::is_race(found)});
+            in_short.push_back({program.line_name(found.place.line), found.rule, text::is_race(found), p});
         }
     std::sort(lines.begin(), lines.end());
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
@@ -173,18 +174,24 @@ std::vector<std::string> reference_notes(const ShadedSystem& of, const OwnTexts&
 namespace {
 
 /// What passed may not the next time, or elsewhere, where the shader's text does what GLSL gives no result for.
-void note_findings(CheckReport& report, const std::vector<ShortFinding>& findings) {
-    if (report.verdict != Verdict::agree && report.verdict != Verdict::legal)
-        return;
+void limit_verdict(CheckReport& report, const std::vector<ShortFinding>& findings) {
     const auto race = std::ranges::find(findings, true, &ShortFinding::is_race);
     const auto first = race != findings.end() ? race : findings.begin();
     if (first == findings.end() || std::ranges::any_of(report.untried, [&](const std::string& known) {
             return known.starts_with(first->place + " ");
         }))
         return;
-    report.untried.push_back(first->is_race ? fmt::format("{} races with another invocation", first->place)
-                                            : fmt::format("{} has a result that GLSL leaves open: {}", first->place,
-                                                          first->rule.substr(0, first->rule.find(" (GL"))));
+    report.fails_by_text = shader_warnings_are_errors();
+    (report.fails_by_text ? report.failures : report.untried)
+        .push_back(first->is_race ? fmt::format("{} races with another invocation", first->place)
+                                  : fmt::format("{} has a result that GLSL leaves open: {}", first->place,
+                                                first->rule.substr(0, first->rule.find(" (GL"))));
+}
+
+/// Whether a pass is held against its own text: what differs then rests on what the text leaves open, if it does so.
+bool is_own_reference(const ShadedSystem& of, const OwnShaders& own, std::size_t pass) {
+    return own.texts[pass] != nullptr && !own.reference.empty() &&
+           own.texts[pass]->is_text_of(shader_folders(own.reference, of.system.schema.system));
 }
 
 } // namespace
@@ -193,7 +200,10 @@ TextNotes text_notes(const ShadedSystem& of, const OwnShaders& own, DivergentPas
                      CoveredRuns covered) {
     TextNotes notes =
         shader_findings(of, own.texts, own.folder, divergence.side().describe().profile, report.frames, covered);
-    note_findings(report, notes.findings);
+    std::vector<ShortFinding> limiting = notes.findings;
+    if (report.verdict != Verdict::agree && report.verdict != Verdict::legal)
+        std::erase_if(limiting, [&](const ShortFinding& one) { return !is_own_reference(of, own, one.pass); });
+    limit_verdict(report, limiting);
     for (const std::string& line : lines_without_counterpart(of, own.texts, own.use, own.reference, divergence))
         notes.lines.push_back("without a counterpart in the reference: " + line);
     return notes;

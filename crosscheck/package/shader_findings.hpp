@@ -17,6 +17,7 @@ struct ShortFinding {
     std::string place; ///< FILE:LINE
     std::string rule;
     bool is_race = false;
+    std::size_t pass = 0; ///< whose text it is
 };
 
 /// Notes on texts, and what the runs of them covered.

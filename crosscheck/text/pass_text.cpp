@@ -240,10 +240,14 @@ text::StageRun PassText::fragments(const PassInput& in) const {
     };
     const float across = 1.0F / static_cast<float>(extent.width), up = 1.0F / static_cast<float>(extent.height);
     for (const text::StageVariable& input : program_.stage_inputs) {
-        const bool is_place = std::ranges::find(pass_.places, input.name) != pass_.places.end();
+        const auto given = pass_.inputs.find(input.name);
+        const bool is_given = given != pass_.inputs.end();
         if (input.builtin == spv::BuiltInFragCoord)
             give(input, [](float x, float y) { return std::array{x, y, 0.5F, 1.0F}; });
-        else if (is_place && input.cells == 2)
+        else if (is_given && given->second == InputBy::uniform)
+            run.inputs[text::name_of(input)] =
+                words_given(this->given(in), {.name = input.name, .cells = input.cells, .is_real = input.is_real});
+        else if (is_given && input.cells == 2)
             give(input, [&](float x, float y) { return std::array{x * across, y * up}; });
         else if (!input.builtin && input.is_read)
             refuse(

@@ -77,6 +77,48 @@ std::optional<WrittenPlace> changed_place(WrittenPlace place) {
     }
 }
 
+/// What the invocations of a group make of shared words together by atomic operations whose order says nothing.
+class Changes {
+  public:
+    void add(std::uint64_t word, std::size_t moment, std::uint32_t op, const WordRange& operand, bool is_sure) {
+        Change& change = changes_[{word, moment}];
+        if (change.op != 0 && change.op != op)
+            refuse();
+        change.op = op;
+        change.operands.emplace_back(operand, is_sure);
+    }
+    /// `before(place, moment)`, `put(place, moment, word)`: as of Stretches.
+    template <class Before, class Put> void leave(const Before& before, const Put& put) const {
+        for (const auto& [at, change] : changes_) {
+            const WrittenPlace place{Space::shared, 0, at.first};
+            const GroupWord start = before(place, at.second - 1);
+            const std::optional<WordRange> first = start.undefined != Undefined::none  ? std::nullopt
+                                                   : start.is_one_word() || !start.set ? std::optional(start.words)
+                                                                                       : word_range::bits(*start.set);
+            if (!first)
+                refuse();
+            std::optional<WordRange> made = first;
+            for (const auto& [operand, is_sure] : change.operands) {
+                const std::optional<WordRange> with = word_range::of_atomic(change.op, *made, operand);
+                if (!with)
+                    refuse();
+                made = is_sure ? *with : joined({*made}, {*with}).words;
+            }
+            put(place, at.second, {*made});
+        }
+    }
+
+  private:
+    [[noreturn]] static void refuse() {
+        throw Error("what an atomic operation makes of open words is not followed by sets");
+    }
+    struct Change {
+        std::uint32_t op = 0;
+        std::vector<std::pair<WordRange, bool>> operands;
+    };
+    std::map<std::pair<std::uint64_t, std::size_t>, Change> changes_;
+};
+
 /// What one invocation leaves in the stretches of its group, all its ways together.
 class Stretches {
   public:
@@ -102,12 +144,14 @@ class Stretches {
     /// `plain(place, moment)`: what the group leaves in plain bits, or null. Calls put(place, moment, word). Throws
     /// Error where what an atomic operation makes is open.
     template <class Before, class Plain, class Put>
-    void leave(const Before& before, const Plain& plain, const Put& put) const {
+    void leave(const Before& before, const Plain& plain, const Put& put, Changes& changes) const {
         for (const auto& [place, of_place] : left_)
             for (const auto& [stretch, left] : of_place) {
                 if (stretch >= ends_)
                     continue;
-                if (const std::optional<WrittenPlace> changed = changed_place(place)) {
+                if (place.space == Space::changed_shared && place.number != 0) {
+                    changes.add(place.word, stretch + 1, place.number, left.word.words, left.ways == ways_);
+                } else if (const std::optional<WrittenPlace> changed = changed_place(place)) {
                     const GroupWord* const made = plain(*changed, stretch + 1);
                     if (made == nullptr || left.ways != ways_ || !left.word.is_one_word() ||
                         !before(*changed, stretch).is_one_word())
@@ -166,15 +210,18 @@ std::vector<std::vector<InvocationOutcome>> Outcomes::of_group(std::uint32_t gro
         const GroupWord* const found = found_at(history, place, moment);
         return found != nullptr ? *found : word_before(bindings, place);
     };
+    constexpr int most_ways = 32; // of an invocation, on average
     const std::uint32_t size = program_.invocations();
     for (std::size_t round = 0; round <= writes.size(); ++round) {
         std::vector<std::vector<InvocationOutcome>> outcomes(size);
         History next;
+        Changes changes;
         const auto put = [&](const WrittenPlace& place, std::size_t moment, const GroupWord& word) {
             const auto [known_word, is_new] = next[place].try_emplace(moment, word);
             if (!is_new)
                 known_word->second = joined(known_word->second, word);
         };
+        int ways_left = most_ways * static_cast<int>(size);
         for (std::uint32_t i = 0; i < size; ++i) {
             Stretches stretches;
             run.ways(
@@ -184,6 +231,7 @@ std::vector<std::vector<InvocationOutcome>> Outcomes::of_group(std::uint32_t gro
                     way.clear();
                 },
                 [&](bool is_at_end, std::span<const Fork> forks, Undefined undefined) {
+                    --ways_left;
                     const bool are_too_many = !is_at_end && undefined == Undefined::undecided && forks.empty();
                     if (is_at_end)
                         way.push_back(run.written);
@@ -196,16 +244,18 @@ std::vector<std::vector<InvocationOutcome>> Outcomes::of_group(std::uint32_t gro
                             for (const auto& [place, cell] : stretch)
                                 all[place] = cell;
                     add_outcome(outcome_of(all, bindings, forks, undefined), outcomes[i]);
-                });
+                },
+                std::clamp(ways_left, 4, TextWorlds::most_runs));
             stretches.leave(
                 before, [&](const WrittenPlace& place, std::size_t moment) { return found_at(plain, place, moment); },
-                put);
+                put, changes);
             // It could go on either way: what it has written somewhere, it may write there as well.
             for (std::size_t stretch = 0; stretches.ends() < writes.size() && stretch < writes.size(); ++stretch)
                 for (const GroupWrite& one : writes[stretch])
                     if (one.invocation == group * size + i)
                         put(one.place, std::max(stretch, stretches.ends()) + 1, {.undefined = stretches.why()});
         }
+        changes.leave(before, put);
         if (are_same(history, next, writes.size()))
             return outcomes;
         history = std::move(next);

@@ -144,6 +144,21 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
         if (found({stored, place.number, place.word}) != nullptr)
             refuse_shared();
         const bool has_operand = s.n != spv::OpAtomicIIncrement && s.n != spv::OpAtomicIDecrement;
+        if constexpr (has_sets<R>)
+            // Of shared words what many make of open ones is known, where their order says nothing.
+            if (place.space == Space::changed_shared && has_operand) {
+                const C& given = *cell(s.c);
+                const WordRange one = given.is_open() ? given.range() : WordRange{given.w, 0};
+                if (word_range::of_atomic(s.n, one, one)) {
+                    const auto [all, is_first] = written_->try_emplace({place.space, s.n, place.word});
+                    const std::optional<WordRange> together =
+                        is_first ? one : word_range::of_atomic(s.n, all->second.range(), one);
+                    if (!together)
+                        refuse_shared();
+                    all->second.set(*together, r);
+                    return;
+                }
+            }
         C& operands = (*written_)[place];
         operands.set(31 * operands.word() + (has_operand ? word_at(s.c) : 1U));
     };
@@ -157,8 +172,11 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     case code::load_shared:
         for (std::uint32_t c = 0; c < s.n; ++c) {
             const WrittenPlace at{Space::shared, 0, word_at(s.b) + c};
-            if (found({Space::changed_shared, 0, at.word}) != nullptr)
-                refuse_shared();
+            for (const std::uint32_t op :
+                 {0U, std::uint32_t{spv::OpAtomicIAdd}, std::uint32_t{spv::OpAtomicSMin},
+                  std::uint32_t{spv::OpAtomicUMin}, std::uint32_t{spv::OpAtomicSMax}, std::uint32_t{spv::OpAtomicUMax}})
+                if (found({Space::changed_shared, op, at.word}) != nullptr)
+                    refuse_shared();
             if (const C* const own = found(at))
                 *cell(s.out + c) = *own;
             else if (const GroupWord* const other = of_others(at))

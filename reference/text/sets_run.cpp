@@ -85,11 +85,14 @@ SetsRun::SetsRun(const Program& program, std::array<std::uint32_t, 3> groups, co
 }
 
 void SetsRun::ways(const Invocation& invocation, std::span<const GivenInput> inputs, const std::function<void()>& begin,
-                   const std::function<void(bool, std::span<const Fork>, Undefined)>& ended) {
+                   const std::function<void(bool, std::span<const Fork>, Undefined)>& ended, int most) {
+    int runs = 0;
     worlds_.run(
         [&] {
             written.clear();
             begin();
+            if (++runs > most)
+                worlds_.end(Undefined::undecided);
             machine.start({&invocation, 1});
             for (const GivenInput& one : inputs)
                 machine.give(*one.input, 0, one.words);

@@ -28,9 +28,11 @@ class SetsRun {
     Machine<TextWorlds, 1> machine;
     WrittenWords<TextWorlds> written; ///< by the run, since it was cleared
 
-    /// Runs each way of an invocation. `begin()`: before each. `ended(whether it came to its end, forks, undefined)`.
+    /// Runs each way of an invocation; behind `most` of them the rest is undecided. `begin()`: before each.
+    /// `ended(whether it came to its end, forks, undefined)`.
     void ways(const Invocation& invocation, std::span<const GivenInput> inputs, const std::function<void()>& begin,
-              const std::function<void(bool is_at_end, std::span<const Fork> forks, Undefined undefined)>& ended);
+              const std::function<void(bool is_at_end, std::span<const Fork> forks, Undefined undefined)>& ended,
+              int most = TextWorlds::most_runs);
 };
 
 /// A word as a way has left it.

@@ -143,6 +143,26 @@ Result of(std::uint32_t operation, const WordRange& a, const WordRange& b) {
 
 bool is_known(std::uint32_t operation) { return of(operation, {}, {}).has_value(); }
 
+std::optional<WordRange> of_atomic(std::uint32_t operation, const WordRange& a, const WordRange& b) {
+    const bool is_signed = operation == spv::OpAtomicSMin || operation == spv::OpAtomicSMax;
+    const auto is_less = [&](std::uint32_t x, std::uint32_t y) { return is_signed ? number(x) < number(y) : x < y; };
+    const auto least = [&](std::uint32_t x, std::uint32_t y) { return is_less(y, x) ? y : x; };
+    const auto most = [&](std::uint32_t x, std::uint32_t y) { return is_less(x, y) ? y : x; };
+    const bool has_order = is_signed ? a.is_signed() && b.is_signed() : a.is_unsigned() && b.is_unsigned();
+    switch (operation) {
+    case spv::OpAtomicIAdd:
+        return sum(a, b);
+    case spv::OpAtomicSMin:
+    case spv::OpAtomicUMin:
+        return has_order ? between(least(a.first, b.first), least(a.last(), b.last())) : std::nullopt;
+    case spv::OpAtomicSMax:
+    case spv::OpAtomicUMax:
+        return has_order ? between(most(a.first, b.first), most(a.last(), b.last())) : std::nullopt;
+    default:
+        return {};
+    }
+}
+
 std::optional<Interval> floats(const WordRange& a) {
     const float first = std::bit_cast<float>(a.first), last = std::bit_cast<float>(a.last());
     if (!a.is_unsigned() || a.first >> 31U != a.last() >> 31U || std::isnan(first) || std::isnan(last))

@@ -30,6 +30,10 @@ bool is_known(std::uint32_t operation);
 /// meaning.
 std::optional<WordRange> of(std::uint32_t operation, const WordRange& a, const WordRange& b);
 
+/// What an atomic addition, minimum or maximum, by its instruction, makes of words in any order; nothing of others, or
+/// where the words are no range of such numbers.
+std::optional<WordRange> of_atomic(std::uint32_t operation, const WordRange& a, const WordRange& b);
+
 /// The floats with these bits; nothing where one of them is no number, or where the signs differ.
 std::optional<Interval> floats(const WordRange& a);
 /// The bits of a set of floats that has numbers of one sign. Zero is +0 beside positive ones, and else -0.

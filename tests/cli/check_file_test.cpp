@@ -484,6 +484,12 @@ TEST_CASE(
             .check();
     CHECK_THAT(line(unset, "verdict"),
                Contains("but tile.comp:10 has a result that GLSL leaves open: use of a shared variable"));
+    CHECK(unset.status == 0);
+    const Outcome strict =
+        Made(document, {tile("    if (l != 3u)\n        t[l] = x[i];\n    barrier();\n    x[i] = t[15u - l];\n")})
+            .check({"--werror-shaders"});
+    CHECK(strict.status == 1);
+    CHECK_THAT(line(strict, "verdict"), Contains("FAILED: tile.comp:10 has a result that GLSL leaves open"));
 }
 
 TEST_CASE("check file: two copies of which some items are not made are refused") {

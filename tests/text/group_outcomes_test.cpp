@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -153,6 +154,31 @@ TEST_CASE("group outcomes: what others make of operands without a result is open
                {1, 1, 1, 0, 1, 1, 1, 1});
     CHECK(ends.outcomes()[2][0].undefined != Undefined::none);
     CHECK(ends.outcomes()[1][0].undefined == Undefined::none);
+}
+
+TEST_CASE("group outcomes: a sum, minimum or maximum of open words by atomic operations is a range") {
+    Group most("shared uint top;\nvoid main() {\nuint l = gl_LocalInvocationID.x;\nif (l == 0u) top = 0u;\nbarrier();\n"
+               "atomicMax(top, floatBitsToUint(exp(x[l])));\nbarrier();\nx[l] = x[l] / uintBitsToFloat(top);\n}\n",
+               some_numbers());
+    const std::vector<float> given = some_numbers();
+    const float largest = *std::max_element(given.begin(), given.end());
+    const text::WrittenWord share = most.word(3);
+    CHECK(share.set.contains(static_cast<float>(given[3] / std::exp(double{largest}))));
+    CHECK(share.set.high - share.set.low < 1e-4);
+    CHECK_FALSE(share.set.contains(given[3] / (std::exp(largest) + 0.01F)));
+    Group sum(
+        "shared int total;\nvoid main() {\nuint l = gl_LocalInvocationID.x;\nif (l == 0u) total = 5;\nbarrier();\n"
+        "atomicAdd(total, int(round(x[l] * 3.0 + 0.2)));\nbarrier();\nx[l] = float(total);\n}\n",
+        std::vector<float>(size, 0.1F)); // 0.5 and a little, or a little less
+    const auto found = sum.outcomes()[2];
+    const auto may_be = [&](float value) {
+        return std::any_of(found.begin(), found.end(),
+                           [&](const text::InvocationOutcome& one) { return one.written.at(0).set.contains(value); });
+    };
+    CHECK(may_be(5.0F));
+    CHECK(may_be(13.0F));
+    CHECK_FALSE(may_be(14.0F));
+    CHECK_FALSE(may_be(4.0F));
 }
 
 TEST_CASE("group outcomes: what the order of atomic operations decides is refused by its line") {

@@ -210,9 +210,10 @@ std::vector<std::vector<InvocationOutcome>> Outcomes::of_group(std::uint32_t gro
         const GroupWord* const found = found_at(history, place, moment);
         return found != nullptr ? *found : word_before(bindings, place);
     };
-    constexpr int most_ways = 32; // of an invocation, on average
+    constexpr int most_ways = 8; // of an invocation, on average
     const std::uint32_t size = program_.invocations();
-    for (std::size_t round = 0; round <= writes.size(); ++round) {
+    std::vector<bool> is_given_up(size); // from then on: what it leaves is anything, in every round
+    for (std::size_t round = 0; round <= writes.size() + size; ++round) {
         std::vector<std::vector<InvocationOutcome>> outcomes(size);
         History next;
         Changes changes;
@@ -224,28 +225,31 @@ std::vector<std::vector<InvocationOutcome>> Outcomes::of_group(std::uint32_t gro
         int ways_left = most_ways * static_cast<int>(size);
         for (std::uint32_t i = 0; i < size; ++i) {
             Stretches stretches;
-            run.ways(
-                invocation_of(program_, groups, group * size + i), {},
-                [&] {
-                    at = 0;
-                    way.clear();
-                },
-                [&](bool is_at_end, std::span<const Fork> forks, Undefined undefined) {
-                    --ways_left;
-                    const bool are_too_many = !is_at_end && undefined == Undefined::undecided && forks.empty();
-                    if (is_at_end)
-                        way.push_back(run.written);
-                    else
-                        stretches.end_in(are_too_many ? 0 : at, undefined);
-                    stretches.add(way);
-                    WrittenWords<TextWorlds> all;
-                    if (is_at_end)
-                        for (const WrittenWords<TextWorlds>& stretch : way)
-                            for (const auto& [place, cell] : stretch)
-                                all[place] = cell;
-                    add_outcome(outcome_of(all, bindings, forks, undefined), outcomes[i]);
-                },
-                std::clamp(ways_left, 4, TextWorlds::most_runs));
+            const auto ended = [&](bool is_at_end, std::span<const Fork> forks, Undefined undefined) {
+                --ways_left;
+                is_given_up[i] = is_given_up[i] || (!is_at_end && undefined == Undefined::undecided);
+                if (is_at_end)
+                    way.push_back(run.written);
+                else
+                    stretches.end_in(is_given_up[i] ? 0 : at, undefined);
+                stretches.add(way);
+                WrittenWords<TextWorlds> all;
+                if (is_at_end)
+                    for (const WrittenWords<TextWorlds>& stretch : way)
+                        for (const auto& [place, cell] : stretch)
+                            all[place] = cell;
+                add_outcome(outcome_of(all, bindings, forks, undefined), outcomes[i]);
+            };
+            const auto begin = [&] {
+                at = 0;
+                way.clear();
+            };
+            begin();
+            if (is_given_up[i])
+                ended(false, {}, Undefined::undecided);
+            else
+                run.ways(invocation_of(program_, groups, group * size + i), {}, begin, ended,
+                         std::clamp(ways_left, 4, TextWorlds::most_runs));
             stretches.leave(
                 before, [&](const WrittenPlace& place, std::size_t moment) { return found_at(plain, place, moment); },
                 put, changes);
@@ -265,7 +269,7 @@ std::vector<std::vector<InvocationOutcome>> Outcomes::of_group(std::uint32_t gro
 
 std::vector<InvocationOutcome> DispatchOutcomes::of(const Invocation& invocation,
                                                     std::span<const GivenInput> inputs) const {
-    constexpr std::size_t most_kept = 1024;
+    constexpr std::size_t most_kept = 1024, most_undecided = 3;
     const JudgedDispatch& d = dispatch_;
     const Program& program = of_.program();
     if (program.barriers == 0 && program.shared == 0)
@@ -276,12 +280,26 @@ std::vector<InvocationOutcome> DispatchOutcomes::of(const Invocation& invocation
         const std::scoped_lock lock(mutex_);
         if (const auto found = groups_.find(group); found != groups_.end())
             return found->second.at(local);
+        if (!refused_.empty())
+            throw Error(refused_);
+        if (undecided_ >= most_undecided) // the rest is likely the same, and each takes long
+            return {{.written = {}, .open = {}, .undefined = Undefined::undecided}};
         if (groups_.size() >= most_kept)
             groups_.clear();
     }
-    std::vector<std::vector<InvocationOutcome>> made =
-        of_.of_group(group, d.groups, bindings_, d.profile, d.known, d.constants);
+    std::vector<std::vector<InvocationOutcome>> made;
+    try {
+        made = of_.of_group(group, d.groups, bindings_, d.profile, d.known, d.constants);
+    } catch (const Error& error) {
+        const std::scoped_lock lock(mutex_);
+        refused_ = error.what();
+        throw;
+    }
+    const auto is_undecided = [](const std::vector<InvocationOutcome>& all) {
+        return std::ranges::any_of(all, [](const auto& one) { return one.undefined == Undefined::undecided; });
+    };
     const std::scoped_lock lock(mutex_);
+    undecided_ += 2 * std::ranges::count_if(made, is_undecided) > static_cast<std::ptrdiff_t>(made.size()) ? 1 : 0;
     return groups_.insert_or_assign(group, std::move(made)).first->second.at(local);
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -94,6 +95,8 @@ class DispatchOutcomes {
     const Bindings& bindings_;
     JudgedDispatch dispatch_;
     mutable std::mutex mutex_;
+    mutable std::string refused_;       ///< why some group is not followed; empty: all were
+    mutable std::size_t undecided_ = 0; ///< groups of which most invocations have more ways than are followed
     mutable std::map<std::uint32_t, std::vector<std::vector<InvocationOutcome>>> groups_;
 };
 

@@ -119,8 +119,8 @@ class Writer {
             bind[text.program.images[i].name] = image(text.program.images[i], text.accesses.images[i], writers);
         for (const text::StageVariable& output : text.program.stage_outputs)
             if (!output.builtin && stage == Stage::fragment)
-                bind[old_name(output.name)] =
-                    image({old_name(output.name), true, {}, output.is_real}, {.is_written = true}, writers);
+                bind[old_name(output.name)] = image({old_name(output.name), true, {}, output.is_real},
+                                                    {.is_written = true}, writers, output.cells);
         const auto add_uniform = [&](const std::string& name, const text::BasicType& type) {
             uniforms[name] =
                 guessed_uniform(type, todo_, fmt::format("uniform {} of {}", name, shader.filename().string()));
@@ -194,9 +194,13 @@ class Writer {
         return name;
     }
 
-    std::string image(const text::ImageUniform& image, const text::Access& access, std::set<std::string>& writers) {
+    /// `components`: that are written.
+    std::string image(const text::ImageUniform& image, const text::Access& access, std::set<std::string>& writers,
+                      std::uint32_t components = 4) {
         const std::uint32_t axes = image.shape.axes();
-        const std::string format = format_of(image).name;
+        std::string format = format_of(image).name;
+        if (components < 3 && format.starts_with("rgba"))
+            format.replace(0, 4, components == 1 ? "r" : "rg");
         if (axes < 2 || axes > 3 || image.shape.is_arrayed || format.empty())
             throw Error(fmt::format("new check: image {} is of a kind that a check file does not have; expected two or "
                                     "three dimensions, and formats as r32f or rgba8",

@@ -69,8 +69,14 @@ void Decoder::outputs() {
             stage_variables(v, p_.stage_outputs);
         }
     p_.output_cells = p_.cells;
-    for (const StageVariable& one : p_.stage_outputs)
-        p_.names.push_back({one.name, one.cell, one.cells});
+    for (const StageVariable& one : p_.stage_outputs) {
+        NamedCells& named = p_.names.emplace_back(NamedCells{one.name, one.cell, one.cells});
+        for (std::uint32_t c = 0; c < one.cells; ++c)
+            named.parts.push_back({one.cells == 1                ? ""
+                                   : one.cells == one.components ? fmt::format(".{}", "xyzw"[c])
+                                                                 : fmt::format("[{}]", c),
+                                   one.is_real, one.is_boolean, true});
+    }
 }
 
 void Decoder::stage_input(const Variable& variable) {

@@ -267,40 +267,60 @@ std::vector<std::vector<InvocationOutcome>> Outcomes::of_group(std::uint32_t gro
     throw Error("what a group shares is not followed by sets");
 }
 
+namespace {
+
+/// Whether most invocations of a group have more ways than are followed.
+bool is_undecided(std::span<const std::vector<InvocationOutcome>> group) {
+    const auto undecided = std::ranges::count_if(group, [](const std::vector<InvocationOutcome>& all) {
+        return std::ranges::any_of(all, [](const auto& one) { return one.undefined == Undefined::undecided; });
+    });
+    return 2 * undecided > static_cast<std::ptrdiff_t>(group.size());
+}
+
+} // namespace
+
+std::shared_ptr<const DispatchOutcomes::Group> DispatchOutcomes::kept(std::uint32_t number) const {
+    constexpr std::size_t most_kept = 1024;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (const auto found = groups_.find(number); found != groups_.end())
+            return found->second;
+    }
+    auto made = std::make_shared<Group>();
+    const JudgedDispatch& d = dispatch_;
+    try {
+        made->outcomes = of_.of_group(number, d.groups, bindings_, d.profile, d.known, d.constants);
+    } catch (const Error& error) {
+        made->refused = error.what();
+    }
+    const std::scoped_lock lock(mutex_);
+    if (groups_.size() >= most_kept)
+        groups_.clear();
+    return groups_.try_emplace(number, std::move(made)).first->second;
+}
+
 std::vector<InvocationOutcome> DispatchOutcomes::of(const Invocation& invocation,
                                                     std::span<const GivenInput> inputs) const {
-    constexpr std::size_t most_kept = 1024, most_undecided = 3;
     const JudgedDispatch& d = dispatch_;
     const Program& program = of_.program();
     if (program.barriers == 0 && program.shared == 0)
         return of_.of(invocation, d.groups, bindings_, d.stage, d.profile, d.known, d.constants, inputs);
-    const std::uint32_t group = invocation.number / program.invocations(),
-                        local = invocation.number % program.invocations();
-    {
-        const std::scoped_lock lock(mutex_);
-        if (const auto found = groups_.find(group); found != groups_.end())
-            return found->second.at(local);
-        if (!refused_.empty())
-            throw Error(refused_);
-        if (undecided_ >= most_undecided) // the rest is likely the same, and each takes long
-            return {{.written = {}, .open = {}, .undefined = Undefined::undecided}};
-        if (groups_.size() >= most_kept)
-            groups_.clear();
-    }
-    std::vector<std::vector<InvocationOutcome>> made;
-    try {
-        made = of_.of_group(group, d.groups, bindings_, d.profile, d.known, d.constants);
-    } catch (const Error& error) {
-        const std::scoped_lock lock(mutex_);
-        refused_ = error.what();
-        throw;
-    }
-    const auto is_undecided = [](const std::vector<InvocationOutcome>& all) {
-        return std::ranges::any_of(all, [](const auto& one) { return one.undefined == Undefined::undecided; });
-    };
-    const std::scoped_lock lock(mutex_);
-    undecided_ += 2 * std::ranges::count_if(made, is_undecided) > static_cast<std::ptrdiff_t>(made.size()) ? 1 : 0;
-    return groups_.insert_or_assign(group, std::move(made)).first->second.at(local);
+    // What takes long and comes to nothing is known by three groups, the same ones whoever asks first.
+    std::call_once(is_looked_at_, [&] {
+        const std::uint32_t count = d.groups[0] * d.groups[1] * d.groups[2];
+        const std::array some{kept(0), kept(count / 2), kept(count - 1)};
+        are_undecided_ = std::ranges::all_of(some, [](const auto& one) { return is_undecided(one->outcomes); });
+        if (std::ranges::none_of(some, [](const auto& one) { return one->refused.empty(); }))
+            refused_ = some[0]->refused;
+    });
+    if (!refused_.empty())
+        throw Error(refused_);
+    if (are_undecided_)
+        return {{.written = {}, .open = {}, .undefined = Undefined::undecided}};
+    const std::shared_ptr<const Group> group = kept(invocation.number / program.invocations());
+    if (!group->refused.empty())
+        throw Error(group->refused);
+    return group->outcomes.at(invocation.number % program.invocations());
 }
 
 } // namespace lockstep::text

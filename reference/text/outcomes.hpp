@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -94,10 +95,16 @@ class DispatchOutcomes {
     const Outcomes& of_;
     const Bindings& bindings_;
     JudgedDispatch dispatch_;
+    struct Group {
+        std::vector<std::vector<InvocationOutcome>> outcomes; ///< of each invocation
+        std::string refused;                                  ///< why there are none
+    };
+    [[nodiscard]] std::shared_ptr<const Group> kept(std::uint32_t number) const;
     mutable std::mutex mutex_;
-    mutable std::string refused_;       ///< why some group is not followed; empty: all were
-    mutable std::size_t undecided_ = 0; ///< groups of which most invocations have more ways than are followed
-    mutable std::map<std::uint32_t, std::vector<std::vector<InvocationOutcome>>> groups_;
+    mutable std::map<std::uint32_t, std::shared_ptr<const Group>> groups_; ///< some that were asked for
+    mutable std::once_flag is_looked_at_;
+    mutable bool are_undecided_ = false; ///< most invocations have more ways than are followed
+    mutable std::string refused_;        ///< why no group is followed
 };
 
 } // namespace lockstep::text

@@ -188,7 +188,8 @@ void limit_verdict(CheckReport& report, const std::vector<ShortFinding>& finding
                                                 first->rule.substr(0, first->rule.find(" (GL"))));
 }
 
-/// Whether a pass is held against its own text: what differs then rests on what the text leaves open, if it does so.
+/// Whether the reference of a pass is the text that the GPU runs: where that text leaves something open, a difference
+/// says nothing else.
 bool is_own_reference(const ShadedSystem& of, const OwnShaders& own, std::size_t pass) {
     return own.texts[pass] != nullptr && !own.reference.empty() &&
            own.texts[pass]->is_text_of(shader_folders(own.reference, of.system.schema.system));

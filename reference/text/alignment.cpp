@@ -274,10 +274,12 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
         std::uint32_t open = 0;
         for (std::uint32_t c = 0; c < own.count; ++c)
             open += is_open(c) ? 1 : 0;
+        if (open < 2)
+            continue;
         std::vector<std::pair<double, std::uint32_t>> nearest; // of the right run's, by their first rows
         for (const Components& other : of_right) {
             const TraceRow* const values = &right.trace.rows[other.first];
-            if (open < 2 || other.count != own.count || values->is_real != rows->is_real)
+            if (other.count != own.count || values->is_real != rows->is_real)
                 continue;
             double apart = values->op == rows->op ? 0.0 : 1.0;
             bool is_new = false;

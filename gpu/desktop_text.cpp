@@ -19,6 +19,7 @@
 #include "gpu/glslang_tables.hpp"
 #include "gpu/old_glsl.hpp"
 #include "gpu/shader_words.hpp"
+#include "gpu/spirv_translation.hpp"
 #include "gpu/stage_texts.hpp"
 #include "reference/model/error.hpp"
 
@@ -44,16 +45,15 @@ bool says_vulkan(const std::string& text) {
 
 /// Names that a module has of its text.
 std::set<std::string> names_in(std::span<const std::uint32_t> words) {
-    constexpr std::size_t header = 5;
     std::set<std::string> names;
-    for (std::size_t at = header; at < words.size(); at += std::max<std::size_t>(words[at] >> 16U, 1)) {
-        const auto op = static_cast<spv::Op>(words[at] & 0xffffU);
-        const std::size_t count = words[at] >> 16U, first = op == spv::OpName ? 2 : 3;
-        if ((op == spv::OpName || op == spv::OpMemberName) && count > first && at + count <= words.size()) {
-            const char* const name = reinterpret_cast<const char*>(&words[at + first]);
-            names.emplace(name, strnlen(name, (count - first) * sizeof(std::uint32_t)));
+    for_each_instruction(words, [&](spv::Op op, std::span<const std::uint32_t> instruction) {
+        const std::size_t first = op == spv::OpName ? 2 : 3;
+        if ((op == spv::OpName || op == spv::OpMemberName) && instruction.size() > first) {
+            const std::span<const std::uint32_t> text = instruction.subspan(first);
+            const char* const name = reinterpret_cast<const char*>(text.data());
+            names.emplace(name, strnlen(name, text.size_bytes()));
         }
-    }
+    });
     return names;
 }
 
@@ -100,14 +100,8 @@ std::string translated(const std::string& bytes, bool located) {
         if (compiler.get_storage_class(id) == spv::StorageClassUniformConstant)
             for (const spv::Decoration which : {spv::DecorationLocation, spv::DecorationBinding})
                 compiler.unset_decoration(id, which);
-    const spv::ExecutionModel model = compiler.get_execution_model();
-    for (const auto* const some : {&all.stage_inputs, &all.stage_outputs}) {
-        const bool is_outside =
-            some == &all.stage_inputs ? model == spv::ExecutionModelVertex : model == spv::ExecutionModelFragment;
-        for (const spirv_cross::Resource& one : *some)
-            if (!located && !is_outside)
-                compiler.unset_decoration(one.id, spv::DecorationLocation);
-    }
+    if (!located)
+        unset_locations(compiler, all);
     return with_own_names(compiler.compile(), names);
 }
 

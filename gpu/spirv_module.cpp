@@ -17,14 +17,13 @@
 #include "gpu/shader_source.hpp"
 #include "gpu/spirv_check.hpp"
 #include "gpu/spirv_module_bytes.hpp"
+#include "gpu/spirv_translation.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
 
 using spirv_cross::SPIRType;
-
-constexpr std::size_t header_words = 5;
 
 /// spirv-cross trusts what it reads, and so do validators up to a point.
 constexpr ChildRules reader{"spirv-cross", 20, true};
@@ -328,15 +327,6 @@ class ModuleReader {
     std::unordered_set<spirv_cross::VariableID> active_;
 };
 
-/// Walks through the instructions of a module: `each` gets an opcode and its words.
-template <class Each> void for_each_instruction(std::span<const std::uint32_t> words, const Each& each) {
-    for (std::size_t at = header_words; at < words.size();) {
-        const std::size_t count = std::max<std::size_t>(words[at] >> 16U, 1);
-        each(static_cast<spv::Op>(words[at] & 0xffffU), words.subspan(at, std::min(count, words.size() - at)));
-        at += count;
-    }
-}
-
 bool is_decoration(spv::Op op) {
     return op == spv::OpDecorate || op == spv::OpMemberDecorate || op == spv::OpDecorateId ||
            op == spv::OpDecorateString || op == spv::OpMemberDecorateString;
@@ -344,7 +334,7 @@ bool is_decoration(spv::Op op) {
 
 /// Decorations stand before the first type.
 void insert_decorations(std::vector<std::uint32_t>& words, std::span<const std::uint32_t> added) {
-    std::size_t end = 0, at = header_words;
+    std::size_t end = 0, at = spirv_header_words;
     for_each_instruction(words, [&](spv::Op op, std::span<const std::uint32_t> instruction) {
         at += instruction.size();
         if (is_decoration(op))
@@ -414,14 +404,8 @@ std::string translated(const SpirvModule& module, bool located) {
         options.version = 450;
         options.enable_420pack_extension = false;
         compiler.set_common_options(options);
-        const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
-        const spv::ExecutionModel model = compiler.get_execution_model();
-        if (!located && model != spv::ExecutionModelVertex)
-            for (const spirv_cross::Resource& one : resources.stage_inputs)
-                compiler.unset_decoration(one.id, spv::DecorationLocation);
-        if (!located && model != spv::ExecutionModelFragment)
-            for (const spirv_cross::Resource& one : resources.stage_outputs)
-                compiler.unset_decoration(one.id, spv::DecorationLocation);
+        if (!located)
+            unset_locations(compiler, compiler.get_shader_resources());
         return compiler.compile();
     } catch (const spirv_cross::CompilerError& error) {
         throw Error(fmt::format("shader {}: cannot be translated to GLSL: {}", module.file, error.what()));
@@ -475,7 +459,7 @@ std::vector<std::uint32_t> capturing(const SpirvModule& module, std::span<const 
     std::set<std::uint32_t> ids; // whose offsets are places in a captured buffer
     for (const SpirvModule::Variable& one : module.outputs)
         ids.insert(one.id);
-    std::vector<std::uint32_t> words(module.words.begin(), module.words.begin() + header_words);
+    std::vector<std::uint32_t> words(module.words.begin(), module.words.begin() + spirv_header_words);
     const auto put = [&](std::initializer_list<std::uint32_t> all) { words.insert(words.end(), all); };
     if (!outputs.empty())
         put({2U << 16U | spv::OpCapability, spv::CapabilityTransformFeedback});
